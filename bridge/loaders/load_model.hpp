@@ -1,0 +1,24 @@
+#pragma once
+// Reads a model file of any known format. To add a loader: write load_<format>.{hpp,cpp} and one line in the list in
+// load_model.cpp.
+#include <filesystem>
+#include <vector>
+
+#include <pantin/bridge/diagnostic.hpp>
+#include <pantin/bridge/model.hpp>
+
+namespace pantin {
+
+struct LoadOptions {
+  std::vector<std::filesystem::path> package_paths{};  ///< searched first for package:// (URDF)
+  bool geometry{true};                                 ///< read mesh files and mesh data; false = hierarchy only
+};
+
+/// The format is chosen by file name extension, else by content. Never throws and never aborts for bad input: a file
+/// that cannot be used gives no value and at least one error in the notes.
+[[nodiscard]] Loaded<Model> load_model(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// True for formats whose foreign parser runs unprotected in this process (everything read by assimp).
+[[nodiscard]] bool parser_is_unshielded(const std::filesystem::path& file);
+
+}  // namespace pantin

@@ -1,0 +1,60 @@
+#pragma once
+// The solids that carry mass (and, later, collide). Each is centred on its own frame S; a Shape places it in a body
+// or node.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <pantin/physics/pose.hpp>
+#include <pantin/physics/problem.hpp>
+
+namespace pantin {
+
+struct SphereShape {
+  double radius{0.5};                        ///< [m], > 0
+};
+struct BoxShape {
+  Vector3 size{1, 1, 1};                     ///< full edge lengths [m], each > 0
+};
+struct CapsuleShape {
+  double radius{0.5};                        ///< [m], > 0
+  double length{1};                          ///< between the centres of the caps, along z [m], >= 0
+};
+struct CylinderShape {
+  double radius{0.5};                        ///< [m], > 0
+  double length{1};                          ///< full height along z [m], > 0
+};
+
+/// Triangles over shared vertices; counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Vector3> vertices{};                         ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles{};   ///< indices of vertices
+};
+/// A closed surface of triangles. Immutable, so that many shapes may share it.
+struct MeshShape {
+  std::shared_ptr<const TriangleMesh> mesh{};
+  Vector3 scale{1, 1, 1};                    ///< along the axes of S, not 0; a negative product mirrors
+};
+
+using ShapeGeometry = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, MeshShape>;
+
+/// A solid with its pose in the body or node that carries it.
+struct Shape {
+  ShapeGeometry geometry{SphereShape{}};
+  Pose X_BS{};
+};
+
+/// Lower-case name of the kind: "sphere", "box", "capsule", "cylinder", "mesh".
+[[nodiscard]] std::string_view kind_of(const ShapeGeometry& geometry) noexcept;
+
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const Shape& shape);
+
+/// Why a mesh does not enclose a volume (an edge without or with the same-sensed neighbour, no volume, an index out of
+/// range); nothing where it does. Vertices at the same place count as one.
+[[nodiscard]] std::optional<SettingsProblem> closedness_problem(const TriangleMesh& mesh);
+
+}  // namespace pantin
