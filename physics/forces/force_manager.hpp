@@ -1,0 +1,46 @@
+#pragma once
+// Owns the force laws and has one verb: gather their wrenches.
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <pantin/physics/forces/force_law.hpp>
+#include <pantin/physics/problem.hpp>
+
+namespace pantin {
+
+class ForceManager {
+ public:
+  /// Adds a law from its settings, e.g. add(Gravity{.g_W = {0, 0, -9.81}}). Settings with a problem_with break the
+  /// contract.
+  template <class Settings>
+  ForceId add(const Settings& settings) {
+    check(problem_with(settings));
+    return add_law(make_law(settings));
+  }
+  /// Adds a law of any kind, the user's own included. Not null.
+  ForceId add_law(std::unique_ptr<ForceLaw> law);
+  void remove(ForceId id);                             ///< must be alive
+  /// Removes the laws that name this body; returns how many.
+  std::size_t remove_laws_of(BodyId body);
+  [[nodiscard]] bool contains(ForceId id) const noexcept;
+  [[nodiscard]] std::size_t size() const noexcept { return laws_.size(); }
+
+  /// Adds all laws' wrenches, in the order in which the laws were added.
+  void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
+  [[nodiscard]] double potential_energy(const BodiesAt& at) const;
+  [[nodiscard]] bool depends_on_velocity() const;
+
+ private:
+  struct Entry {
+    ForceId id{};
+    std::unique_ptr<ForceLaw> law{};
+  };
+  static void check(const std::optional<SettingsProblem>& problem);
+
+  std::vector<Entry> laws_{};
+  std::uint32_t next_{1};
+};
+
+}  // namespace pantin
