@@ -1,7 +1,9 @@
 #pragma once
-// Reads a model file of any known format. To add a loader: write load_<format>.{hpp,cpp} and one line in the list in
-// load_model.cpp.
+// Reads a model file of any known format. To add a loader: write load_<format>.{hpp,cpp} and one line in the
+// list in load_model.cpp.
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include <pantin/bridge/diagnostic.hpp>
@@ -9,13 +11,18 @@
 
 namespace pantin {
 
+/// Reads one mesh file, as load_mesh does.
+using MeshReader = std::function<Loaded<std::shared_ptr<const TriangleMesh>>(const std::filesystem::path&)>;
+
 struct LoadOptions {
   std::vector<std::filesystem::path> package_paths{};  ///< searched first for package:// (URDF)
-  bool geometry{true};                                 ///< read mesh files and mesh data; false = hierarchy only
+  bool geometry{true};       ///< read mesh files and mesh data; false = hierarchy only
+  MeshReader mesh_reader{};  ///< for mesh files that a model names (URDF); empty = load_model
+                             ///< puts load_mesh here where it is built, others read none
 };
 
-/// The format is chosen by file name extension, else by content. Never throws and never aborts for bad input: a file
-/// that cannot be used gives no value and at least one error in the notes.
+/// The format is chosen by file name extension, else by content. Never throws and never aborts for bad input:
+/// a file that cannot be used gives no value and at least one error in the notes.
 [[nodiscard]] Loaded<Model> load_model(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// True for formats whose foreign parser runs unprotected in this process (everything read by assimp).
