@@ -1,0 +1,50 @@
+#pragma once
+// Turns elapsed time into physics updates: a constant step with the unused rest carried over, a cap on updates, and
+// times on which an update has to land. Time is a count times the step, so it does not drift.
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <pantin/physics/problem.hpp>
+
+namespace pantin {
+
+struct ClockSettings {
+  double step{1.0 / 240};       ///< [s], > 0
+  int max_updates{1000};        ///< of one advance, >= 1; what does not fit is dropped and reported
+};
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const ClockSettings& settings);
+
+class Clock {
+ public:
+  explicit Clock(ClockSettings settings = {});
+
+  [[nodiscard]] const ClockSettings& settings() const noexcept { return settings_; }
+  void set_step(double step);                               ///< counts afresh from the present time
+  [[nodiscard]] double time() const noexcept { return time_; }   ///< reached by updates [s]
+  [[nodiscard]] double rest() const noexcept { return rest_; }   ///< elapsed but not yet simulated [s], < step
+  [[nodiscard]] double dropped() const noexcept { return dropped_; }  ///< in all, by the cap [s]
+
+  /// Adds elapsed time: floor((elapsed + rest) / step) whole updates become due, with 1e-9 of a step of slack.
+  void add(double elapsed);
+  /// Makes everything up to `time` due, the last update shortened so as to land on it; the rest becomes 0.
+  void add_until(double time);
+  /// The end of the next due update: the next count of the step, or an earlier landing; nothing when none is due.
+  [[nodiscard]] std::optional<double> next() const;
+  /// Says that physics has reached `time`, the value of next().
+  void reached(double time);
+  /// An update has to end at this time (toggle, sample); ignored if it is not ahead.
+  void land_on(double time);
+
+ private:
+  ClockSettings settings_{};
+  double origin_{0};            ///< where counting began [s]
+  std::int64_t count_{0};       ///< whole steps since origin_
+  double time_{0};
+  double due_until_{0};
+  double rest_{0};
+  double dropped_{0};
+  std::vector<double> landings_{};   ///< ascending
+};
+
+}  // namespace pantin

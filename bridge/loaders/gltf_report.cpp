@@ -1,0 +1,88 @@
+#include "gltf_report.hpp"
+
+namespace pantin::gltf {
+namespace {
+
+/// More errors than this are counted but not told one by one.
+constexpr std::size_t kToldErrors = 20;
+
+std::string singular(std::string_view collection) {
+  if (collection == "meshes") return "mesh";
+  if (collection.size() > 1 && collection.back() == 's') collection.remove_suffix(1);
+  return shortened(collection);
+}
+
+}  // namespace
+
+std::string subject_of(const JsonValue& value) {
+  JsonValue item = value;
+  std::optional<JsonValue> collection = item.parent();
+  if (!collection) return "document";
+  while (const std::optional<JsonValue> above = collection->parent()) {
+    if (!above->parent()) break;
+    item = *collection;
+    collection = above;
+  }
+  if (!collection->parent()) return "'" + shortened(item.key()) + "'";
+  if (collection->kind() != JsonKind::Array) return "'" + shortened(collection->key()) + "'";
+  std::string subject = singular(collection->key()) + ' ' + std::to_string(item.position());
+  const std::optional<JsonValue> name = item.find("name");
+  if (name && !name->text().empty()) subject += " '" + shortened(name->text()) + "'";
+  return subject;
+}
+
+void Report::add_error(Diagnostic diagnostic) {
+  if (++errors_ <= kToldErrors) findings_.push_back({std::move(diagnostic)});
+}
+
+void Report::refuse(const JsonValue& at, std::string problem, std::string remedy) {
+  add_error({Severity::Error, place(at), subject_of(at), std::move(problem), std::move(remedy)});
+  throw Refused{};
+}
+
+void Report::refuse_file(std::string problem, std::string remedy, std::size_t line) {
+  const std::string place = line > 0 ? file_ + ':' + std::to_string(line) : file_;
+  add_error({Severity::Error, place, "file", std::move(problem), std::move(remedy)});
+  throw Refused{};
+}
+
+void Report::count_in(const std::string& kind, std::size_t count, Diagnostic diagnostic) {
+  const auto [found, is_new] = kinds_.try_emplace(kind, findings_.size());
+  if (is_new) findings_.push_back({std::move(diagnostic), count});
+  else findings_[found->second].count += count;
+}
+
+void Report::tally(Severity severity, std::string subject, const JsonValue& at, const std::string& problem,
+                   std::string remedy, std::size_t count) {
+  const std::string kind = subject + '\n' + problem;
+  count_in(kind, count, {severity, place(at), std::move(subject), problem, std::move(remedy)});
+}
+
+void Report::tally(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy) {
+  count_in(problem, 1, {severity, place(at), subject_of(at), problem, std::move(remedy)});
+}
+
+void Report::mention(Severity severity, std::string subject, std::string problem, std::string remedy) {
+  findings_.push_back({{severity, file_, std::move(subject), std::move(problem), std::move(remedy)}});
+}
+
+void Report::stop_at_errors() const {
+  if (has_errors()) throw Refused{};
+}
+
+std::vector<Diagnostic> Report::take() {
+  std::vector<Diagnostic> result;
+  for (Finding& finding : findings_) {
+    if (finding.count > 1)
+      finding.diagnostic.problem += " (" + std::to_string(finding.count) + " times, first here)";
+    result.push_back(std::move(finding.diagnostic));
+  }
+  if (errors_ > kToldErrors)
+    result.push_back({Severity::Error, file_, "file",
+                      "has " + std::to_string(errors_ - kToldErrors) + " more errors",
+                      "mend the ones above first"});
+  findings_.clear();
+  return result;
+}
+
+}  // namespace pantin::gltf

@@ -1,0 +1,59 @@
+#pragma once
+// What all joints share: how one is described to the constraint manager, and the numbers that say where it stands.
+// To add a joint kind: one header like pivot.hpp (settings, problem_with, define, and a model for the kernel) and one
+// line in joint_models.hpp.
+#include <array>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <pantin/physics/driver.hpp>
+#include <pantin/physics/ids.hpp>
+#include <pantin/physics/pose.hpp>
+#include <pantin/physics/problem.hpp>
+
+namespace pantin {
+
+/// In the order of JointModels (joint_models.hpp).
+enum class JointKind : std::uint8_t { Pivot, Slider, Ball, Fixed, Driven, Free };
+/// "pivot", "slider", "ball", "fixed", "driven", "free".
+[[nodiscard]] std::string_view to_string(JointKind kind) noexcept;
+
+/// The coordinates or rates of a joint: at most seven numbers; one number converts to double.
+class JointNumbers {
+ public:
+  JointNumbers() = default;
+  JointNumbers(double number) : numbers_{number}, size_{1} {}  // NOLINT: a pivot's angle is its coordinates
+  JointNumbers(std::initializer_list<double> numbers) : JointNumbers(std::span{numbers.begin(), numbers.size()}) {}
+  explicit JointNumbers(std::span<const double> numbers);      ///< at most 7
+
+  [[nodiscard]] int size() const noexcept { return size_; }
+  [[nodiscard]] double operator[](int i) const { return numbers_.at(static_cast<std::size_t>(i)); }
+  [[nodiscard]] double& operator[](int i) { return numbers_.at(static_cast<std::size_t>(i)); }
+  [[nodiscard]] std::span<const double> numbers() const noexcept {
+    return {numbers_.data(), static_cast<std::size_t>(size_)};
+  }
+  operator double() const;  // NOLINT: for joints with one number; the contract says so
+
+ private:
+  std::array<double, 7> numbers_{};
+  int size_{0};
+};
+
+/// A joint as the constraint manager takes it; made by define(settings).
+struct JointDefinition {
+  JointKind kind{JointKind::Fixed};
+  std::string name{};
+  BodyId a{}, b{};                    ///< a null = the world
+  Pose X_AJ{}, X_BJ{};                ///< J seen from the body origins (from the world where a is null)
+  double damping{0};                  ///< viscous, on every rate
+  std::unique_ptr<Driver> driver{};   ///< Driven only: X_AB(t)
+};
+
+/// Checks shared by all joints: finite frames, unit quaternions, b given, a != b, damping >= 0.
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const JointDefinition& joint);
+
+}  // namespace pantin

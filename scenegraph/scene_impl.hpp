@@ -1,0 +1,44 @@
+#pragma once
+// Private to scenegraph. What a Scene owns.
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <pantin/scenegraph/dirty_set.hpp>
+#include <pantin/scenegraph/scene.hpp>
+#include <pantin/scenegraph/scene_storage.hpp>
+
+namespace pantin {
+
+struct Scene::Impl {
+  static constexpr std::uint32_t kNone = SceneStorage::kNone;
+
+  SceneStorage nodes{};
+  DirtySet dirty{};
+  std::vector<std::string> names{std::string{}};          ///< by index of the id
+  std::unordered_map<std::uint32_t, Link> links{};        ///< by index of the id; few nodes have one
+  std::vector<IndexRange> changed{};
+  std::size_t pending{0};                                 ///< edits since the last update; 0: nothing to do
+  bool reordered{false};                                  ///< compacted since the last update
+  std::vector<std::uint32_t> scratch{};                   ///< positions, reused by members that write
+
+  /// Position of a node; that it is alive is a contract.
+  [[nodiscard]] std::uint32_t at(NodeId id) const;
+  [[nodiscard]] NodeId id(std::uint32_t at) const { return nodes.order()[at]; }
+  [[nodiscard]] const std::string& name(std::uint32_t at) const { return names[id(at).index]; }
+  [[nodiscard]] std::string path(std::uint32_t at) const;
+  /// The path in quotes, or "the root": for messages.
+  [[nodiscard]] std::string called(std::uint32_t at) const;
+  [[nodiscard]] Matrix34 world(std::uint32_t at) const;
+
+  void mark(std::uint32_t at);
+  void set_local(std::uint32_t at, const Affine& M_PN);
+  void compact();
+  /// Keeps memory and walks linear under endless creating and removing without updates.
+  void compact_if_mostly_holes();
+  void sweep_dirty();
+  void sweep_range(std::uint32_t begin, std::uint32_t end);
+  [[nodiscard]] bool was_swept(std::uint32_t at) const;
+};
+
+}  // namespace pantin

@@ -1,0 +1,113 @@
+// Bringing world matrices up to date. A dirty position stands for its whole subtree: its range within its run, and the
+// tails hung below that range. One pass goes up the positions, taking whichever comes first, the next dirty position or
+// the next tail whose parent was swept in this pass; as parents have lower positions, each matrix is computed once and
+// after its parent's.
+#include <algorithm>
+#include <array>
+
+#include <pantin/scenegraph/scene_impl.hpp>
+#include <pantin/scenegraph/sweep.hpp>
+
+namespace pantin {
+namespace {
+
+// Compaction costs a few ten nanoseconds a node. With these it happens so seldom that it costs about as much, over
+// time, as what the holes and tails cost that it takes away: a hole is swept over, a tail is looked at by each update.
+constexpr std::size_t kSlack = 32;             ///< holes and tails that any scene may have
+constexpr std::size_t kNodesPerHole = 4;       ///< update compacts above one hole for so many positions
+constexpr std::size_t kNodesPerTail = 256;     ///< update compacts above one tail for so many positions
+constexpr std::size_t kSlackWhileEdited = 1024;  ///< edits compact above so many holes plus half of all positions
+
+}  // namespace
+
+void Scene::Impl::compact() {
+  const std::vector<std::uint32_t> from = nodes.compact();
+  DirtySet moved;
+  moved.grow(from.size());
+  for (std::uint32_t i = 0; i < from.size(); ++i)
+    if (dirty.test(from[i])) moved.mark(i);
+  dirty = std::move(moved);
+  reordered = true;
+}
+
+void Scene::Impl::compact_if_mostly_holes() {
+  if (nodes.holes() > kSlackWhileEdited + nodes.end() / 2) compact();
+}
+
+void Scene::update() {
+  Impl& scene = *impl_;
+  scene.changed.clear();
+  if (scene.pending == 0) return;
+  const std::size_t positions = scene.nodes.end();
+  if (scene.nodes.holes() > kSlack + positions / kNodesPerHole ||
+      scene.nodes.tails() > kSlack + positions / kNodesPerTail)
+    scene.compact();
+  scene.sweep_dirty();
+  if (scene.reordered) scene.changed.assign(1, {0, scene.nodes.end()});
+  scene.reordered = false;
+  scene.pending = 0;
+}
+
+void Scene::Impl::sweep_dirty() {
+  std::size_t tail = 0;
+  std::uint32_t from = 0;
+  while (true) {
+    std::uint32_t begin = dirty.next(from);
+    while (tail < nodes.tails() && nodes.tail(tail) < begin) {
+      const std::uint32_t top = nodes.tail(tail++);
+      if (top >= from && !nodes.is_hole(top) && was_swept(nodes.parent(top))) begin = top;
+    }
+    if (begin == DirtySet::kNone) break;
+    const std::uint32_t end = begin + nodes.extent(begin);
+    dirty.clean(begin, end);
+    sweep_range(begin, end);
+    if (!changed.empty() && changed.back().end == begin)
+      changed.back().end = end;
+    else
+      changed.push_back({begin, end});
+    from = end;
+    if (from == nodes.end()) break;
+  }
+  dirty.forget_lowest();
+}
+
+void Scene::Impl::sweep_range(std::uint32_t begin, std::uint32_t end) {
+  if (begin == 0) nodes.worlds()[0] = nodes.locals()[0], begin = 1;
+  sweep(nodes.locals().data(), nodes.parents().data(), nodes.worlds().data(), begin, end);
+}
+
+bool Scene::Impl::was_swept(std::uint32_t at) const {
+  const auto after = std::upper_bound(changed.begin(), changed.end(), at,
+                                      [](std::uint32_t position, const IndexRange& r) { return position < r.begin; });
+  return after != changed.begin() && at < std::prev(after)->end;
+}
+
+Matrix34 Scene::Impl::world(std::uint32_t at) const {
+  const std::vector<Matrix34>& worlds = nodes.worlds();
+  if (dirty.lowest() > at) return worlds[at];
+  std::size_t depth = 0;  // steps from `at` up to and including the topmost dirty ancestor
+  std::size_t stale = 0;
+  for (std::uint32_t above = at; above != kNone && above >= dirty.lowest(); above = nodes.parent(above)) {
+    ++depth;
+    if (dirty.test(above)) stale = depth;
+  }
+  if (stale == 0) return worlds[at];
+  // Multiplied from the top down as `sweep` does, so the bits are those that the next update gives.
+  std::array<std::uint32_t, 64> few{};
+  std::vector<std::uint32_t> many(stale > few.size() ? stale : 0);
+  std::uint32_t* chain = many.empty() ? few.data() : many.data();
+  std::uint32_t above = at;
+  for (std::size_t k = 0; k < stale; ++k, above = nodes.parent(above)) chain[k] = above;
+  std::size_t k = stale - 1;
+  Matrix34 M = above == kNone ? nodes.locals()[chain[k]] : multiply(worlds[above], nodes.locals()[chain[k]]);
+  while (k-- > 0) M = multiply(M, nodes.locals()[chain[k]]);
+  return M;
+}
+
+Affine Scene::world(NodeId id) const { return impl_->world(impl_->at(id)).affine(); }
+std::span<const Matrix34> Scene::worlds() const noexcept { return impl_->nodes.worlds(); }
+std::span<const NodeId> Scene::order() const noexcept { return impl_->nodes.order(); }
+std::size_t Scene::index_of(NodeId id) const { return impl_->at(id); }
+std::span<const IndexRange> Scene::changed() const noexcept { return impl_->changed; }
+
+}  // namespace pantin
