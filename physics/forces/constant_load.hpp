@@ -1,6 +1,7 @@
 #pragma once
 // A constant force and torque on one body, for as long as the law exists. For a force of one frame use
-// PhysicsManager::apply_force.
+// PhysicsManager::apply_force. A force in world axes has the potential -F . p_WQ (zero at the world origin); a force in
+// body axes and a torque have none.
 #include <memory>
 #include <optional>
 

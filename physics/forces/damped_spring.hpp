@@ -1,6 +1,6 @@
 #pragma once
 // A spring with damper between two points, along the line that joins them: tension = k (l - l0) + c dl/dt. Where the
-// points coincide the line has no direction and the force is zero.
+// points coincide the line has no direction and the force is zero. Potential energy is k (l - l0)^2 / 2.
 #include <memory>
 #include <optional>
 

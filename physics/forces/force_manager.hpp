@@ -1,8 +1,8 @@
 #pragma once
 // Owns the force laws and has one verb: gather their wrenches.
 #include <memory>
+#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <pantin/physics/forces/force_law.hpp>
@@ -38,6 +38,8 @@ class ForceManager {
     std::unique_ptr<ForceLaw> law{};
   };
   static void check(const std::optional<SettingsProblem>& problem);
+  /// size() where there is no such law.
+  [[nodiscard]] std::size_t position_of(ForceId id) const noexcept;
 
   std::vector<Entry> laws_{};
   std::uint32_t next_{1};

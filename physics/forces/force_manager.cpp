@@ -1,0 +1,65 @@
+#include <pantin/physics/forces/force_manager.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include <pantin/physics/expects.hpp>
+
+namespace pantin {
+namespace {
+
+std::string dead_force(ForceId id) {
+  return "force " + std::to_string(id.index) + " is null or was removed; keep the id that add returned";
+}
+
+}  // namespace
+
+void ForceManager::check(const std::optional<SettingsProblem>& problem) {
+  PANTIN_EXPECTS(!problem, problem->text + "; " + problem->remedy);
+}
+
+ForceId ForceManager::add_law(std::unique_ptr<ForceLaw> law) {
+  PANTIN_EXPECTS(law, "the law is null; give an object");
+  const ForceId id{.index = next_++, .generation = 1};
+  laws_.push_back({id, std::move(law)});
+  return id;
+}
+
+// Ids count upwards and are never used twice, so the list is sorted by them.
+std::size_t ForceManager::position_of(ForceId id) const noexcept {
+  const auto found = std::lower_bound(laws_.begin(), laws_.end(), id,
+                                      [](const Entry& entry, ForceId wanted) { return entry.id < wanted; });
+  return found != laws_.end() && found->id == id ? static_cast<std::size_t>(found - laws_.begin()) : size();
+}
+
+void ForceManager::remove(ForceId id) {
+  const std::size_t position = position_of(id);
+  PANTIN_EXPECTS(position < size(), dead_force(id));
+  laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(position));
+}
+
+std::size_t ForceManager::remove_laws_of(BodyId body) {
+  PANTIN_EXPECTS(body, "the body is null; give the body whose laws are to go");
+  return std::erase_if(laws_, [body](const Entry& entry) { return entry.law->names(body); });
+}
+
+bool ForceManager::contains(ForceId id) const noexcept { return position_of(id) < size(); }
+
+void ForceManager::gather(const BodiesAt& at, std::span<Wrench> wrenches) const {
+  PANTIN_EXPECTS(wrenches.size() == at.size(), std::to_string(wrenches.size()) + " wrenches for " +
+                                                   std::to_string(at.size()) + " bodies; give one a body");
+  for (const Entry& entry : laws_) entry.law->add_wrenches(at, wrenches);
+}
+
+double ForceManager::potential_energy(const BodiesAt& at) const {
+  double sum = 0;
+  for (const Entry& entry : laws_) sum += entry.law->potential_energy(at);
+  return sum;
+}
+
+bool ForceManager::depends_on_velocity() const {
+  return std::any_of(laws_.begin(), laws_.end(),
+                     [](const Entry& entry) { return entry.law->depends_on_velocity(); });
+}
+
+}  // namespace pantin

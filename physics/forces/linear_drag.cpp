@@ -1,0 +1,52 @@
+#include <pantin/physics/forces/linear_drag.hpp>
+
+#include <pantin/physics/setting_checks.hpp>
+
+namespace pantin {
+namespace {
+
+class LinearDragLaw final : public ForceLaw {
+ public:
+  explicit LinearDragLaw(const LinearDrag& settings) : settings_{settings} {}
+
+  void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const override {
+    if (settings_.body) {
+      const std::size_t i = at.index(settings_.body);
+      add_drag(settings_, 1, at.kinematics.data() + i, wrenches.data() + i);
+    } else {
+      add_drag(settings_, at.size(), at.kinematics.data(), wrenches.data());
+    }
+  }
+
+  bool depends_on_velocity() const override {
+    return settings_.coefficient != 0 || settings_.angular_coefficient != 0;
+  }
+
+  bool names(BodyId body) const override { return body && body == settings_.body; }
+
+ private:
+  /// Settings by value, so that they stay in registers over the loop.
+  static void add_drag(LinearDrag drag, std::size_t n, const BodyKinematics* body, Wrench* wrench) {
+    for (std::size_t i = 0; i < n; ++i) {
+      wrench[i].force -= drag.coefficient * (body[i].v_WBcm - drag.medium_velocity);
+      wrench[i].torque -= drag.angular_coefficient * body[i].w_WB;
+    }
+  }
+
+  LinearDrag settings_;
+};
+
+}  // namespace
+
+std::optional<SettingsProblem> problem_with(const LinearDrag& settings) {
+  return first_problem({must_not_be_negative({"linear drag", "coefficient", "N s/m"}, settings.coefficient),
+                        must_not_be_negative({"linear drag", "angular coefficient", "N m s/rad"},
+                                             settings.angular_coefficient),
+                        must_be_finite({"linear drag", "medium velocity", "m/s"}, settings.medium_velocity)});
+}
+
+std::unique_ptr<ForceLaw> make_law(const LinearDrag& settings) {
+  return std::make_unique<LinearDragLaw>(settings);
+}
+
+}  // namespace pantin

@@ -1,0 +1,40 @@
+// All integrators that can be chosen by name. A new one is one line here.
+#include <array>
+#include <string>
+
+#include <pantin/physics/integrators/euler.hpp>
+#include <pantin/physics/integrators/rk4.hpp>
+#include <pantin/physics/integrators/semi_implicit_euler.hpp>
+#include <pantin/physics/integrators/verlet.hpp>
+
+namespace pantin {
+namespace {
+
+struct CatalogueEntry {
+  std::string_view name{};
+  std::unique_ptr<Integrator> (*make)(){nullptr};
+};
+
+constexpr std::array kCatalogue{
+    CatalogueEntry{"euler", make_euler},
+    CatalogueEntry{"semi-implicit-euler", make_semi_implicit_euler},
+    CatalogueEntry{"verlet", make_verlet},
+    CatalogueEntry{"rk4", make_rk4},
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(std::string_view name) {
+  for (const CatalogueEntry& entry : kCatalogue) {
+    if (entry.name == name) return entry.make();
+  }
+  return nullptr;
+}
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const CatalogueEntry& entry : kCatalogue) names.emplace_back(entry.name);
+  return names;
+}
+
+}  // namespace pantin
