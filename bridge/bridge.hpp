@@ -10,6 +10,7 @@
 // Physics -> Scene     | pose; link value = measured coordinate  | continuous, then led back to the clip
 // reparent             | world pose; joint frames re-based       | kept
 // teleport             | nothing                                 | as stated
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,6 +69,7 @@ struct Toggle {
 
 struct AdvanceReport {
   int updates{0};                          ///< physics steps taken
+  std::int64_t evaluations{0};             ///< of the derivative, in all of them
   double time{0};                          ///< physics time reached [s]
   double dropped{0};                       ///< elapsed time thrown away by the cap on updates [s]
   StepReport last{};                       ///< of the last step; not ok = the advance stopped there, scene untouched by it
