@@ -56,6 +56,12 @@ std::string to_string(const Diagnostic& diagnostic) {
   return out;
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  append_escaped(out, text);
+  return out;
+}
+
 bool has_error(const std::vector<Diagnostic>& notes) noexcept {
   return std::any_of(notes.begin(), notes.end(),
                      [](const Diagnostic& note) { return note.severity == Severity::Error; });

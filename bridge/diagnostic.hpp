@@ -28,6 +28,9 @@ struct Diagnostic {
 /// "place: severity: subject: problem; remedy" on one line; control characters of the input are escaped.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
+/// Text of the input made fit for one line of a terminal: control characters are escaped.
+[[nodiscard]] std::string printable(std::string_view text);
+
 [[nodiscard]] bool has_error(const std::vector<Diagnostic>& notes) noexcept;
 
 /// A value and its ledger. No value where one of the notes is an error.
