@@ -5,6 +5,12 @@
 #include <nlohmann/json.hpp>
 
 namespace pantin::gltf {
+namespace {
+
+/// Longer pointers are cut: glTF is flat, deeper values can only be nonsense.
+constexpr std::size_t kPointerDepth = 32;
+
+}  // namespace
 
 std::string_view to_string(JsonKind kind) noexcept {
   constexpr std::array<std::string_view, 6> kNames{"null",   "true or false", "a number",
@@ -29,11 +35,13 @@ JsonValue JsonValue::at(std::size_t i) const {
 
 std::optional<JsonValue> JsonValue::find(std::string_view key) const {
   if (kind() != JsonKind::Object) return std::nullopt;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const JsonValue member = at(i);
-    if (member.key() == key) return member;
-  }
-  return std::nullopt;
+  const auto first = tree_->children_.begin() + tree_->entries_[entry_].first;
+  const auto last = first + tree_->entries_[entry_].count;
+  const auto found = std::lower_bound(first, last, key, [&](std::uint32_t entry, std::string_view wanted) {
+    return tree_->key_of(entry) < wanted;
+  });
+  if (found == last || tree_->key_of(*found) != key) return std::nullopt;
+  return JsonValue{*tree_, *found};
 }
 
 double JsonValue::number() const noexcept {
@@ -49,7 +57,7 @@ std::string_view JsonValue::text() const noexcept {
   return entry.kind == JsonKind::Text ? std::string_view{tree_->texts_[entry.first]} : std::string_view{};
 }
 
-std::string_view JsonValue::key() const noexcept { return tree_->texts_[tree_->entries_[entry_].key]; }
+std::string_view JsonValue::key() const noexcept { return tree_->key_of(entry_); }
 
 std::size_t JsonValue::position() const noexcept { return tree_->entries_[entry_].position; }
 
@@ -70,23 +78,30 @@ std::string JsonValue::pointer() const {
     tokens.push_back(std::move(token));
   }
   std::string result;
-  std::for_each(tokens.rbegin(), tokens.rend(), [&](const std::string& token) { result += '/' + token; });
-  return result;
+  for (std::size_t i = 0; i < std::min(tokens.size(), kPointerDepth); ++i) {
+    result += '/';
+    result += tokens[tokens.size() - 1 - i];
+  }
+  return tokens.size() > kPointerDepth ? result + "/..." : result;
 }
 
-/// Fills a tree from the events of the parser. A container's children are gathered on one stack and moved to the
-/// tree's pool when it closes.
+/// Fills a tree from the events of the parser. A container's children are gathered on one stack and moved to
+/// the tree's pool when it closes.
 class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit JsonBuilder(std::string_view text) : text_{text} { tree_.texts_.emplace_back(); }
 
   bool null() override { return add(JsonKind::Null, 0); }
   bool boolean(bool value) override { return add(JsonKind::Boolean, value ? 1 : 0); }
-  bool number_integer(std::int64_t value) override { return add(JsonKind::Number, static_cast<double>(value)); }
+  bool number_integer(std::int64_t value) override {
+    return add(JsonKind::Number, static_cast<double>(value));
+  }
   bool number_unsigned(std::uint64_t value) override {
     return add(JsonKind::Number, static_cast<double>(value));
   }
-  bool number_float(double value, const std::string& /*token*/) override { return add(JsonKind::Number, value); }
+  bool number_float(double value, const std::string& /*token*/) override {
+    return add(JsonKind::Number, value);
+  }
   bool string(std::string& value) override {
     add(JsonKind::Text, 0);
     tree_.entries_.back().first = keep(std::move(value));
@@ -150,6 +165,10 @@ class JsonBuilder final : public nlohmann::json_sax<nlohmann::json> {
     const auto first = pending_.begin() + static_cast<std::ptrdiff_t>(open_.back().first_child);
     entry.first = static_cast<std::uint32_t>(tree_.children_.size());
     entry.count = static_cast<std::uint32_t>(pending_.end() - first);
+    if (entry.kind == JsonKind::Object)
+      std::stable_sort(first, pending_.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return tree_.key_of(a) < tree_.key_of(b);
+      });
     tree_.children_.insert(tree_.children_.end(), first, pending_.end());
     pending_.erase(first, pending_.end());
     open_.pop_back();
@@ -178,15 +197,13 @@ std::optional<JsonTree> JsonTree::parse(std::string_view text, JsonError& error)
 }
 
 std::optional<JsonValue> JsonTree::first_duplicate() const {
-  std::vector<std::uint32_t> members;
-  const auto key_of = [&](std::uint32_t entry) -> const std::string& { return texts_[entries_[entry].key]; };
   for (const Entry& entry : entries_) {
-    if (entry.kind != JsonKind::Object || entry.count < 2) continue;
+    if (entry.kind != JsonKind::Object) continue;
     const auto first = children_.begin() + entry.first;
-    members.assign(first, first + entry.count);
-    std::ranges::stable_sort(members, {}, key_of);
-    const auto twice = std::ranges::adjacent_find(members, {}, key_of);
-    if (twice != members.end()) return JsonValue{*this, *(twice + 1)};
+    const auto last = first + entry.count;
+    const auto twice = std::adjacent_find(
+        first, last, [&](std::uint32_t a, std::uint32_t b) { return key_of(a) == key_of(b); });
+    if (twice != last) return JsonValue{*this, *(twice + 1)};
   }
   return std::nullopt;
 }

@@ -5,6 +5,10 @@ namespace {
 
 /// More errors than this are counted but not told one by one.
 constexpr std::size_t kToldErrors = 20;
+/// More kinds of notes and warnings than this share one entry.
+constexpr std::size_t kToldKinds = 200;
+
+constexpr const char* kOtherKinds = "there are findings of further kinds";
 
 std::string singular(std::string_view collection) {
   if (collection == "meshes") return "mesh";
@@ -46,10 +50,21 @@ void Report::refuse_file(std::string problem, std::string remedy, std::size_t li
   throw Refused{};
 }
 
+void Report::refuse_with(Diagnostic diagnostic) {
+  add_error(std::move(diagnostic));
+  throw Refused{};
+}
+
 void Report::count_in(const std::string& kind, std::size_t count, Diagnostic diagnostic) {
-  const auto [found, is_new] = kinds_.try_emplace(kind, findings_.size());
-  if (is_new) findings_.push_back({std::move(diagnostic), count});
-  else findings_[found->second].count += count;
+  if (const auto found = kinds_.find(kind); found != kinds_.end()) {
+    findings_[found->second].count += count;
+    return;
+  }
+  if (kinds_.size() == kToldKinds && kind != kOtherKinds)
+    return count_in(kOtherKinds, count,
+                    {Severity::Warning, file_, "file", kOtherKinds, "mend the ones told first"});
+  kinds_.emplace(kind, findings_.size());
+  findings_.push_back({std::move(diagnostic), count});
 }
 
 void Report::tally(Severity severity, std::string subject, const JsonValue& at, const std::string& problem,
@@ -63,7 +78,8 @@ void Report::tally(Severity severity, const JsonValue& at, const std::string& pr
 }
 
 void Report::mention(Severity severity, std::string subject, std::string problem, std::string remedy) {
-  findings_.push_back({{severity, file_, std::move(subject), std::move(problem), std::move(remedy)}});
+  const std::string kind = subject + '\n' + problem;
+  count_in(kind, 1, {severity, file_, std::move(subject), std::move(problem), std::move(remedy)});
 }
 
 void Report::stop_at_errors() const {

@@ -1,6 +1,6 @@
 #pragma once
-// Gathers what the glTF reader has to say. Findings of one kind are counted and told once, with the first place.
-// Inside the reader a refusal travels as `Refused`; load_gltf lets none of them out.
+// Gathers what the glTF reader has to say. Findings of one kind are counted and told once, with the first
+// place. Inside the reader a refusal travels as `Refused`; load_gltf lets none of them out.
 #include <map>
 #include <string>
 #include <vector>
@@ -23,7 +23,11 @@ class Report {
   /// An error about the file as a whole, `line` counted from 1, 0 = none.
   [[noreturn]] void refuse_file(std::string problem, std::string remedy, std::size_t line = 0);
 
-  /// A finding that may occur many times: equal subject and problem are told once, with count and first place.
+  /// An error found by others.
+  [[noreturn]] void refuse_with(Diagnostic diagnostic);
+
+  /// A finding that may occur many times: equal subject and problem are told once, with count and first
+  /// place.
   void tally(Severity severity, std::string subject, const JsonValue& at, const std::string& problem,
              std::string remedy, std::size_t count = 1);
   /// The same, told of the item that holds the first such value.
