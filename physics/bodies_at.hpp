@@ -1,6 +1,6 @@
 #pragma once
-// All bodies at one instant, as force laws see them: during a step at a stage of the integrator, afterwards at the
-// state reached. Arrays over all bodies; a BodyId is turned into a position by `index`.
+// All bodies at one instant, as force laws see them: during a step at a stage of the integrator, afterwards
+// at the state reached. Arrays over all bodies; a BodyId is turned into a position by `index`.
 #include <cstdint>
 #include <span>
 
@@ -20,14 +20,14 @@ enum class BodyKind : std::uint8_t {
 
 /// Where a body is and how it moves.
 struct BodyKinematics {
-  Vector3 p_WBcm{Vector3::Zero()};      ///< centre of gravity [m]
+  Vector3 p_WBcm{Vector3::Zero()};  ///< centre of gravity [m]
   Matrix3 R_WB{Matrix3::Identity()};
-  Vector3 v_WBcm{Vector3::Zero()};      ///< velocity of the centre of gravity [m/s]
-  Vector3 w_WB{Vector3::Zero()};        ///< [rad/s]
+  Vector3 v_WBcm{Vector3::Zero()};  ///< velocity of the centre of gravity [m/s]
+  Vector3 w_WB{Vector3::Zero()};    ///< [rad/s]
 };
 
 struct BodiesAt {
-  double t{0};                                   ///< [s]
+  double t{0};  ///< [s]
   Side side{Side::After};
   std::span<const BodyKinematics> kinematics{};
   std::span<const MassProperties> mass{};
@@ -41,8 +41,8 @@ struct BodiesAt {
 
 /// A point fixed in a body, or in the world.
 struct Attachment {
-  BodyId body{};                     ///< null = the world
-  Vector3 p_BQ{Vector3::Zero()};     ///< from the body origin, in B [m]; in W for the world
+  BodyId body{};                  ///< null = the world
+  Vector3 p_BQ{Vector3::Zero()};  ///< from the body origin, in B [m]; in W for the world
 };
 
 /// World position and velocity of an attachment point.

@@ -15,7 +15,7 @@ struct PhysicsId {
   friend auto operator<=>(const PhysicsId&, const PhysicsId&) = default;
 };
 
-using BodyId = PhysicsId<struct BodyTag>;    ///< as a joint's or force's end, null means the world
+using BodyId = PhysicsId<struct BodyTag>;  ///< as a joint's or force's end, null means the world
 using JointId = PhysicsId<struct JointTag>;
 using ForceId = PhysicsId<struct ForceTag>;
 

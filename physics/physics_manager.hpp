@@ -1,7 +1,7 @@
 #pragma once
-// Owns everything that is simulated and advances it. Bodies without joints are integrated as they are; bodies joined
-// into a tree move in joint coordinates, eliminated along the hierarchy inside the derivative, so that every
-// integrator keeps its order. Poses and momenta are the public truth.
+// Owns everything that is simulated and advances it. Bodies without joints are integrated as they are; bodies
+// joined into a tree move in joint coordinates, eliminated along the hierarchy inside the derivative, so that
+// every integrator keeps its order. Poses and momenta are the public truth.
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,8 +24,8 @@ concept JointSettings = requires(S settings) {
   { define(std::move(settings)) } -> std::same_as<JointDefinition>;
 };
 
-/// Every id argument must be alive, every number finite, or the contract is broken. Reading is safe from several
-/// threads at once; two managers are independent.
+/// Every id argument must be alive, every number finite, or the contract is broken. Reading is safe from
+/// several threads at once; two managers are independent.
 class PhysicsManager {
  public:
   PhysicsManager();
@@ -35,55 +35,59 @@ class PhysicsManager {
 
   // Bodies
   BodyId add(RigidBodySettings settings);
-  void remove(BodyId id);                            ///< its joints and the laws that name it go first
+  void remove(BodyId id);  ///< its joints and the laws that name it go first
   [[nodiscard]] bool contains(BodyId id) const noexcept;
   [[nodiscard]] RigidBody body(BodyId id) const;
   [[nodiscard]] std::span<const BodyId> bodies() const noexcept;
 
-  /// Who decides from now on; pose and velocity stay what they are (an animated body's are then the driver's).
+  /// Who decides from now on; pose and velocity stay what they are (an animated body's are then the
+  /// driver's).
   void make_simulated(BodyId id);
-  void make_animated(BodyId id, std::unique_ptr<Driver> driver);   ///< X_WB(t) of the body origin
+  void make_animated(BodyId id, std::unique_ptr<Driver> driver);  ///< X_WB(t) of the body origin
   void make_static(BodyId id);
-  void set_mass_properties(BodyId id, const MassProperties& mass); ///< keeps the origin's pose and both velocities
+  void set_mass_properties(BodyId id,
+                           const MassProperties& mass);  ///< keeps the origin's pose and both velocities
 
-  /// Teleports: the previous pose becomes the new one. What hangs on the body through joints moves along. A pose that
-  /// the body's own joint does not allow is brought back to the joint at the next step.
+  /// Teleports: the previous pose becomes the new one. What hangs on the body through joints moves along. A
+  /// pose that the body's own joint does not allow is brought back to the joint at the next step.
   void set_pose(BodyId id, const Pose& X_WB);
-  /// Of a simulated body. Velocities that joints do not allow are projected on them at the next step, momenta kept as
-  /// far as the joints let them.
+  /// Of a simulated body. Velocities that joints do not allow are projected on them at the next step, momenta
+  /// kept as far as the joints let them.
   void set_velocity(BodyId id, const Vector3& v_WBcm, const Vector3& w_WB);
 
   /// Adds to the accumulators; they act on every step until clear_accumulators.
-  void apply_force(BodyId id, const Vector3& f_W, const Vector3& p_WQ);   ///< [N], acting at a point given in W [m]
-  void apply_force(BodyId id, const Vector3& f_W);                        ///< at the centre of gravity
-  void apply_torque(BodyId id, const Vector3& t_W);                       ///< [N m]
+  void apply_force(BodyId id, const Vector3& f_W,
+                   const Vector3& p_WQ);             ///< [N], acting at a point given in W [m]
+  void apply_force(BodyId id, const Vector3& f_W);   ///< at the centre of gravity
+  void apply_torque(BodyId id, const Vector3& t_W);  ///< [N m]
   /// Acts once, at the end of the next step: added to P and L, then joints are made to agree.
-  void apply_impulse(BodyId id, const Vector3& j_W, const Vector3& p_WQ); ///< [N s]
+  void apply_impulse(BodyId id, const Vector3& j_W, const Vector3& p_WQ);  ///< [N s]
   void apply_impulse(BodyId id, const Vector3& j_W);
-  void apply_angular_impulse(BodyId id, const Vector3& j_W);              ///< [N m s]
-  void clear_accumulators();                                              ///< forces and torques; impulses stay
+  void apply_angular_impulse(BodyId id, const Vector3& j_W);  ///< [N m s]
+  void clear_accumulators();                                  ///< forces and torques; impulses stay
 
   // Joints
   template <JointSettings S>
   JointId add(S settings) {
     return add_joint(define(std::move(settings)));
   }
-  JointId add_joint(JointDefinition joint);          ///< a closed loop breaks the contract: ask closes_loop first
+  JointId add_joint(JointDefinition joint);  ///< a closed loop breaks the contract: ask closes_loop first
   void remove(JointId id);
   [[nodiscard]] bool contains(JointId id) const noexcept;
   [[nodiscard]] std::vector<JointId> joints() const;
   [[nodiscard]] const JointDefinition& joint(JointId id) const;
   [[nodiscard]] std::vector<JointId> joints_of(BodyId id) const;
-  /// Whether a joint between these two (null = world) would close a loop; all bodies that are not simulated count as
-  /// one with the world.
+  /// Whether a joint between these two (null = world) would close a loop; all bodies that are not simulated
+  /// count as one with the world.
   [[nodiscard]] bool closes_loop(BodyId a, BodyId b) const;
   /// Whether simulating this body, animated or static now, would close a loop through its joints.
   [[nodiscard]] bool simulating_closes_loop(BodyId id) const;
-  /// Joints that move nothing that resists (massless ends), and floating bodies without mass; call before stepping.
+  /// Joints that move nothing that resists (massless ends), and floating bodies without mass; call before
+  /// stepping.
   [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints() const;
 
-  /// Where B stands against A: pivot angle with its turns [rad], slider [m], ball (w, x, y, z); none for fixed and
-  /// driven joints.
+  /// Where B stands against A: pivot angle with its turns [rad], slider [m], ball (w, x, y, z); none for
+  /// fixed and driven joints.
   [[nodiscard]] JointNumbers joint_value(JointId id) const;
   /// pivot [rad/s], slider [m/s], ball: angular velocity of B in A in axes of B's joint frame [rad/s].
   [[nodiscard]] JointNumbers joint_rate(JointId id) const;
@@ -98,10 +102,10 @@ class PhysicsManager {
   [[nodiscard]] ForceManager& forces() noexcept;
   [[nodiscard]] const ForceManager& forces() const noexcept;
   void set_integrator(std::unique_ptr<Integrator> integrator);
-  [[nodiscard]] const Integrator& integrator() const noexcept;     ///< "rk4" unless set
+  [[nodiscard]] const Integrator& integrator() const noexcept;  ///< "rk4" unless set
 
   // Time
-  [[nodiscard]] double time() const noexcept;                      ///< [s]
+  [[nodiscard]] double time() const noexcept;  ///< [s]
   void set_time(double time);
   /// Advances by h > 0 [s]. If numbers go wrong nothing changes and the report says where.
   [[nodiscard]] StepReport step(double h);
@@ -109,8 +113,8 @@ class PhysicsManager {
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
   [[nodiscard]] Energy energy() const;
 
-  /// Everything integrated, as a value. Restoring continues bit for bit; bodies, joints and kinds must be the same as
-  /// when it was taken.
+  /// Everything integrated, as a value. Restoring continues bit for bit; bodies, joints and kinds must be the
+  /// same as when it was taken.
   [[nodiscard]] State snapshot();
   void restore(const State& state);
 

@@ -10,8 +10,8 @@ using Quaternion = Eigen::Quaterniond;  ///< (w, x, y, z) in constructors and te
 
 /// X_AB: pose of frame B in frame A; p_A = X_AB * p_B. Cannot hold scale.
 struct Pose {
-  Vector3 p{Vector3::Zero()};               ///< p_AB, origin of B in A [m]
-  Quaternion q{Quaternion::Identity()};     ///< q_AB, unit
+  Vector3 p{Vector3::Zero()};            ///< p_AB, origin of B in A [m]
+  Quaternion q{Quaternion::Identity()};  ///< q_AB, unit
 
   [[nodiscard]] Matrix3 rotation() const { return q.toRotationMatrix(); }
   /// X_AC = X_AB * X_BC

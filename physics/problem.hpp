@@ -1,18 +1,19 @@
 #pragma once
-// Why settings cannot be used: a value that contracts print and that loaders and the bridge turn into diagnostics.
+// Why settings cannot be used: a value that contracts print and that loaders and the bridge turn into
+// diagnostics.
 #include <string>
 
 namespace pantin {
 
 enum class ProblemCode {
-  NotFinite,       ///< a number is NaN or infinite
-  OutOfRange,      ///< a number is outside its range
-  NotUnit,         ///< an axis or quaternion is not of unit length
-  Unphysical,      ///< mass properties that no body has
-  NotClosed,       ///< a mesh whose surface does not enclose a volume
-  UnknownEntity,   ///< an id that is null or no longer alive
-  ClosedLoop,      ///< a joint between two bodies that are already joined
-  SingularMass,    ///< a joint moves nothing that resists
+  NotFinite,      ///< a number is NaN or infinite
+  OutOfRange,     ///< a number is outside its range
+  NotUnit,        ///< an axis or quaternion is not of unit length
+  Unphysical,     ///< mass properties that no body has
+  NotClosed,      ///< a mesh whose surface does not enclose a volume
+  UnknownEntity,  ///< an id that is null or no longer alive
+  ClosedLoop,     ///< a joint between two bodies that are already joined
+  SingularMass,   ///< a joint moves nothing that resists
 };
 
 struct SettingsProblem {

@@ -1,6 +1,6 @@
 #pragma once
-// The solids that carry mass (and, later, collide). Each is centred on its own frame S; a Shape places it in a body
-// or node.
+// The solids that carry mass (and, later, collide). Each is centred on its own frame S; a Shape places it in
+// a body or node.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -15,29 +15,30 @@
 namespace pantin {
 
 struct SphereShape {
-  double radius{0.5};                        ///< [m], > 0
+  double radius{0.5};  ///< [m], > 0
 };
 struct BoxShape {
-  Vector3 size{1, 1, 1};                     ///< full edge lengths [m], each > 0
+  Vector3 size{1, 1, 1};  ///< full edge lengths [m], each > 0
 };
 struct CapsuleShape {
-  double radius{0.5};                        ///< [m], > 0
-  double length{1};                          ///< between the centres of the caps, along z [m], >= 0
+  double radius{0.5};  ///< [m], > 0
+  double length{1};    ///< between the centres of the caps, along z [m], >= 0
 };
 struct CylinderShape {
-  double radius{0.5};                        ///< [m], > 0
-  double length{1};                          ///< full height along z [m], > 0
+  double radius{0.5};  ///< [m], > 0
+  double length{1};    ///< full height along z [m], > 0
 };
 
 /// Triangles over shared vertices; counter-clockwise seen from outside.
 struct TriangleMesh {
-  std::vector<Vector3> vertices{};                         ///< [m]
-  std::vector<std::array<std::uint32_t, 3>> triangles{};   ///< indices of vertices
+  std::vector<Vector3> vertices{};                        ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< indices of vertices
 };
-/// A closed surface of triangles. Immutable, so that many shapes may share it.
+/// A surface of triangles; closed where mass is to be found from it. Immutable, so that many shapes may share
+/// it.
 struct MeshShape {
   std::shared_ptr<const TriangleMesh> mesh{};
-  Vector3 scale{1, 1, 1};                    ///< along the axes of S, not 0; a negative product mirrors
+  Vector3 scale{1, 1, 1};  ///< along the axes of S, not 0; a negative product mirrors
 };
 
 using ShapeGeometry = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, MeshShape>;
@@ -51,10 +52,14 @@ struct Shape {
 /// Lower-case name of the kind: "sphere", "box", "capsule", "cylinder", "mesh".
 [[nodiscard]] std::string_view kind_of(const ShapeGeometry& geometry) noexcept;
 
+/// Numbers that are not finite or out of range, an orientation that is not of unit length, a mesh that is
+/// null or names vertices it does not have. A mesh may be open here: only mass_of and volume_of need a
+/// volume.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const Shape& shape);
 
-/// Why a mesh does not enclose a volume (an edge without or with the same-sensed neighbour, no volume, an index out of
-/// range); nothing where it does. Vertices at the same place count as one.
+/// Why a mesh does not enclose a volume: an edge without or with a same-sensed neighbour, no volume beyond
+/// rounding, triangles that face inward, an index out of range, a vertex that is not finite; nothing where it
+/// does. Vertices at exactly the same place count as one. Solids that touch along an edge are fine.
 [[nodiscard]] std::optional<SettingsProblem> closedness_problem(const TriangleMesh& mesh);
 
 }  // namespace pantin

@@ -1,6 +1,7 @@
 #pragma once
-// Everything that is integrated, as one copyable value: snapshot, rewind, comparison and hash come for free. It holds
-// no settings: it fits the manager it was taken from, as long as bodies, joints and kinds stay the same.
+// Everything that is integrated, as one copyable value: snapshot, rewind, comparison and hash come for free.
+// It holds no settings: it fits the manager it was taken from, as long as bodies, joints and kinds stay the
+// same.
 #include <cstdint>
 #include <vector>
 
@@ -10,24 +11,27 @@ namespace pantin {
 
 /// Accumulators of one body: user forces and impulses, in W, about the centre of gravity.
 struct BodyAccumulators {
-  Vector3 force{Vector3::Zero()};             ///< [N]
-  Vector3 torque{Vector3::Zero()};            ///< [N m]
-  Vector3 force_impulse{Vector3::Zero()};     ///< [N s]
-  Vector3 torque_impulse{Vector3::Zero()};    ///< [N m s]
+  Vector3 force{Vector3::Zero()};           ///< [N]
+  Vector3 torque{Vector3::Zero()};          ///< [N m]
+  Vector3 force_impulse{Vector3::Zero()};   ///< [N s]
+  Vector3 torque_impulse{Vector3::Zero()};  ///< [N m s]
 };
 
 struct State {
-  std::uint64_t topology{0};                       ///< which set of bodies, joints and kinds it fits
-  double time{0};                                  ///< [s]
-  double time_compensation{0};                     ///< what rounding has kept back from `time` [s]
-  bool at_break{false};                            ///< the last step ended where a driven motion breaks
+  std::uint64_t topology{0};    ///< which set of bodies, joints and kinds it fits
+  double time{0};               ///< [s]
+  double time_compensation{0};  ///< what rounding has kept back from `time` [s]
+  bool at_break{false};         ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
-  std::vector<BodyKinematics> kinematics{};        ///< derived, kept so that a restored manager continues bit for bit
-  std::vector<BodyState> previous{};               ///< before the last step
+  std::vector<BodyKinematics>
+      kinematics{};                   ///< derived, kept so that a restored manager continues bit for bit
+  std::vector<BodyState> previous{};  ///< before the last step
   std::vector<BodyAccumulators> accumulators{};
-  std::vector<double> coordinates{};               ///< of all trees, in the order of the manager's layout
+  bool loaded{false};                 ///< some accumulated force or torque is not zero
+  bool struck{false};                 ///< some accumulated impulse is not zero
+  std::vector<double> coordinates{};  ///< of all trees, in the order of the manager's layout
   std::vector<double> rates{};
-  std::vector<std::uint8_t> edited{};              ///< per tree: poses (1) or velocities (2) were set from outside
+  std::vector<std::uint8_t> edited{};  ///< per tree: velocities were set from outside since the last step
 };
 
 [[nodiscard]] bool operator==(const State& a, const State& b);

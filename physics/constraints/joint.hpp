@@ -1,7 +1,7 @@
 #pragma once
-// What all joints share: how one is described to the constraint manager, and the numbers that say where it stands.
-// To add a joint kind: one header like pivot.hpp (settings, problem_with, define, and a model for the kernel) and one
-// line in joint_models.hpp.
+// What all joints share: how one is described to the constraint manager, and the numbers that say where it
+// stands. To add a joint kind: one header like pivot.hpp (settings, problem_with, define, and a model for the
+// kernel) and one line in joint_models.hpp.
 #include <array>
 #include <initializer_list>
 #include <memory>
@@ -27,8 +27,9 @@ class JointNumbers {
  public:
   JointNumbers() = default;
   JointNumbers(double number) : numbers_{number}, size_{1} {}  // NOLINT: a pivot's angle is its coordinates
-  JointNumbers(std::initializer_list<double> numbers) : JointNumbers(std::span{numbers.begin(), numbers.size()}) {}
-  explicit JointNumbers(std::span<const double> numbers);      ///< at most 7
+  JointNumbers(std::initializer_list<double> numbers)
+      : JointNumbers(std::span{numbers.begin(), numbers.size()}) {}
+  explicit JointNumbers(std::span<const double> numbers);  ///< at most 7
 
   [[nodiscard]] int size() const noexcept { return size_; }
   [[nodiscard]] double operator[](int i) const { return numbers_.at(static_cast<std::size_t>(i)); }
@@ -47,10 +48,10 @@ class JointNumbers {
 struct JointDefinition {
   JointKind kind{JointKind::Fixed};
   std::string name{};
-  BodyId a{}, b{};                    ///< a null = the world
-  Pose X_AJ{}, X_BJ{};                ///< J seen from the body origins (from the world where a is null)
-  double damping{0};                  ///< viscous, on every rate
-  std::unique_ptr<Driver> driver{};   ///< Driven only: X_AB(t)
+  BodyId a{}, b{};                   ///< a null = the world
+  Pose X_AJ{}, X_BJ{};               ///< J seen from the body origins (from the world where a is null)
+  double damping{0};                 ///< viscous, on every rate
+  std::unique_ptr<Driver> driver{};  ///< Driven only: X_AB(t)
 };
 
 /// Checks shared by all joints: finite frames, unit quaternions, b given, a != b, damping >= 0.

@@ -1,16 +1,51 @@
 #pragma once
 // Pivot (hinge): B turns about the z axis of joint frame J, all else is held.
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/kernel_math.hpp>
 
 namespace pantin {
 
 /// Zero is where X_WA * X_AJ and X_WB * X_BJ coincide; right-hand sense, B relative to A. Value: angle [rad].
 struct PivotSettings {
   std::string name{};
-  BodyId a{}, b{};             ///< a null = world; b must be a body
-  Pose X_AJ{}, X_BJ{};         ///< J seen from the body origins
-  double damping{0};           ///< [N m s/rad], >= 0
+  BodyId a{}, b{};      ///< a null = world; b must be a body
+  Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
+  double damping{0};    ///< [N m s/rad], >= 0
 };
 [[nodiscard]] JointDefinition define(PivotSettings settings);
+
+/// Kernel form (see joint_models.hpp): q = angle, v = its rate.
+struct PivotModel {
+  static constexpr std::string_view kName = "pivot";
+  static constexpr int kCoordinates = 1, kRates = 1;
+
+  template <class T>
+  static void place(const T* q, kernel::Mat3<T>& R, kernel::Vec3<T>& p) {
+    using std::cos;
+    using std::sin;
+    const T c = cos(q[0]), s = sin(q[0]);
+    R = {{c, -s, T(0), s, c, T(0), T(0), T(0), T(1)}};
+    p = {};
+  }
+  template <class T>
+  static void columns(const kernel::Mat3<T>&, kernel::Vec3<T>* angular, kernel::Vec3<T>* linear) {
+    angular[0] = {T(0), T(0), T(1)};
+    linear[0] = {};
+  }
+  template <class T>
+  static void rate(const T*, const T* v, T* q_dot) {
+    q_dot[0] = v[0];
+  }
+  static void measure(const Pose& X_JaJb, double* q) {
+    // The angle about z of the rotation nearest to X_JaJb, in the turn nearest to the present value.
+    const double angle = 2 * std::atan2(X_JaJb.q.z(), X_JaJb.q.w());
+    q[0] = angle + 2 * M_PI * std::round((q[0] - angle) / (2 * M_PI));
+  }
+  static void normalise(double*) {}
+  static void reverse(double* q, double* v) {
+    q[0] = -q[0];
+    v[0] = -v[0];
+  }
+};
 
 }  // namespace pantin

@@ -1,0 +1,88 @@
+#pragma once
+// Owns the joints, lays them out as trees, and keeps the trees' coordinates in step with the bodies. Poses
+// and momenta of the bodies are the public truth; coordinates live in State beside them and are measured
+// afresh only when joints, bodies or kinds have changed, so that nothing drifts by conversion.
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <pantin/physics/body_store.hpp>
+#include <pantin/physics/constraints/articulated.hpp>
+#include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/tree.hpp>
+#include <pantin/physics/step_report.hpp>
+
+namespace pantin {
+
+class ConstraintManager {
+ public:
+  // Joints
+  JointId add(JointDefinition joint);
+  void remove(JointId id);
+  [[nodiscard]] bool contains(JointId id) const noexcept;
+  [[nodiscard]] std::size_t at(JointId id) const;  ///< position of a living joint
+  [[nodiscard]] const JointDefinition& joint(std::size_t j) const { return *joints_[j]; }
+  [[nodiscard]] std::size_t size() const noexcept { return joints_.size(); }
+  [[nodiscard]] JointId id(std::size_t j) const { return ids_[j]; }
+  [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;
+  [[nodiscard]] bool closes_loop(const BodyStore& bodies, BodyId a, BodyId b) const;
+  [[nodiscard]] bool simulating_closes_loop(const BodyStore& bodies, BodyId body) const;
+
+  // Layout
+  /// Bodies, joints, kinds or masses are about to change: keeps what is known of the coordinates, by joint.
+  void stale(const BodyStore& bodies);
+  /// Brings layout, coordinates and rates up to date with the bodies; bodies that miss their joints are put
+  /// back.
+  void prepare(BodyStore& bodies);
+  [[nodiscard]] bool is_stale() const noexcept { return stale_; }
+  [[nodiscard]] const TreeLayout& layout() const noexcept { return layout_; }
+  [[nodiscard]] Articulated& kernel() noexcept { return kernel_; }
+
+  /// Rates of a tree from the momenta of its bodies: the motion that the joints allow and that has the same
+  /// momentum along it (an articulated impulse solve). Writes velocities and momenta.
+  void project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
+  /// Writes poses, velocities and momenta of a tree's bodies from its coordinates and rates.
+  void commit(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
+  /// Motion of all bodies that are not simulated, by body position.
+  void ground_motions(const BodyStore& bodies, Instant at, std::vector<RigidMotion>& out) const;
+
+  // Numbers of a joint, seen as B relative to A.
+  [[nodiscard]] JointNumbers value(const BodyStore& bodies, std::size_t j) const;
+  [[nodiscard]] JointNumbers rate(const BodyStore& bodies, std::size_t j) const;
+  void set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value);
+  void set_rate(BodyStore& bodies, std::size_t j, const JointNumbers& rate);
+  [[nodiscard]] JointDrift drift(const BodyStore& bodies) const;
+  /// Moves a body of a tree with all that hangs on it; its own joint is kept.
+  void teleport(BodyStore& bodies, std::size_t body, const Pose& X_WB);
+  [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints(BodyStore& bodies);
+
+ private:
+  struct Numbers {  ///< of one joint, as its model stores them, B relative to A
+    double q[7]{};
+    double v[6]{};
+    bool known{false};
+  };
+  [[nodiscard]] Numbers numbers(const BodyStore& bodies, std::size_t j) const;
+  void put_numbers(BodyStore& bodies, std::size_t j, const Numbers& numbers);
+  void measure(const BodyStore& bodies, const Tree& tree, std::vector<double>& q) const;
+  [[nodiscard]] Pose link_pose(const BodyStore& bodies, const TreeLink& link) const;
+  void write_state(BodyStore& bodies, const Tree& tree, bool poses) const;
+  [[nodiscard]] Pose relative_pose(const BodyStore& bodies, const JointDefinition& joint) const;
+
+  std::vector<std::unique_ptr<JointDefinition>> joints_{};
+  std::vector<JointId> ids_{};
+  std::vector<Numbers> last_{};               ///< by joint position
+  std::vector<std::uint32_t> position_of_{};  ///< JointId::index -> position
+  std::vector<std::uint32_t> generation_{};
+  std::vector<std::uint32_t> free_{};
+  std::vector<std::vector<JointId>> joints_of_{};  ///< by BodyId::index
+
+  TreeLayout layout_{};
+  Articulated kernel_{};
+  bool stale_{true};
+  std::vector<RigidMotion> grounds_{};
+  std::vector<double> zero_rates_{};
+};
+
+}  // namespace pantin

@@ -1,0 +1,88 @@
+#include <pantin/physics/constraints/joint.hpp>
+
+#include <pantin/physics/constraints/joint_models.hpp>
+#include <pantin/physics/expects.hpp>
+
+namespace pantin {
+
+JointNumbers::JointNumbers(std::span<const double> numbers) : size_{static_cast<int>(numbers.size())} {
+  PANTIN_EXPECTS(numbers.size() <= numbers_.size(),
+                 "a joint has at most 7 numbers, not " + std::to_string(numbers.size()));
+  std::copy(numbers.begin(), numbers.end(), numbers_.begin());
+}
+
+JointNumbers::operator double() const {
+  PANTIN_EXPECTS(size_ == 1, "only a joint with one number can be read as one; this one has " +
+                                 std::to_string(size_) + ": use numbers()");
+  return numbers_[0];
+}
+
+std::string_view to_string(JointKind kind) noexcept {
+  std::string_view name;
+  with_model(kind, [&name](auto model) { name = decltype(model)::kName; });
+  return name;
+}
+
+namespace {
+
+bool is_rigid(const Pose& X) {
+  return X.p.allFinite() && X.q.coeffs().allFinite() && std::abs(X.q.squaredNorm() - 1) < 1e-9;
+}
+
+JointDefinition defined(JointKind kind, auto& settings) {
+  JointDefinition joint;
+  joint.kind = kind;
+  joint.name = std::move(settings.name);
+  joint.a = settings.a;
+  joint.b = settings.b;
+  if constexpr (requires { settings.X_AJ; }) {
+    joint.X_AJ = settings.X_AJ;
+    joint.X_BJ = settings.X_BJ;
+  }
+  if constexpr (requires { settings.damping; }) joint.damping = settings.damping;
+  return joint;
+}
+
+}  // namespace
+
+std::optional<SettingsProblem> problem_with(const JointDefinition& joint) {
+  const std::string subject = std::string{to_string(joint.kind)} + " '" + joint.name + "': ";
+  if (!joint.b) {
+    return SettingsProblem{ProblemCode::UnknownEntity, subject + "b is null",
+                           "b must be a body; only a may be the world"};
+  }
+  if (joint.a == joint.b) {
+    return SettingsProblem{ProblemCode::ClosedLoop, subject + "a and b are the same body",
+                           "join two different bodies"};
+  }
+  if (!is_rigid(joint.X_AJ) || !is_rigid(joint.X_BJ)) {
+    return SettingsProblem{ProblemCode::NotUnit,
+                           subject + "a joint frame is not finite or its quaternion is not unit",
+                           "give finite positions and unit quaternions"};
+  }
+  if (!(joint.damping >= 0) || !std::isfinite(joint.damping)) {
+    return SettingsProblem{ProblemCode::OutOfRange, subject + "damping is " + std::to_string(joint.damping),
+                           "give a finite damping >= 0"};
+  }
+  if ((joint.kind == JointKind::Driven) != (joint.driver != nullptr)) {
+    return SettingsProblem{ProblemCode::OutOfRange, subject + "a driven joint, and no other, has a driver",
+                           "give the driver of the relative motion"};
+  }
+  if (joint.kind == JointKind::Free) {
+    return SettingsProblem{ProblemCode::OutOfRange, subject + "a free joint holds nothing",
+                           "leave the joint out"};
+  }
+  return std::nullopt;
+}
+
+JointDefinition define(PivotSettings settings) { return defined(JointKind::Pivot, settings); }
+JointDefinition define(SliderSettings settings) { return defined(JointKind::Slider, settings); }
+JointDefinition define(BallSettings settings) { return defined(JointKind::Ball, settings); }
+JointDefinition define(FixedSettings settings) { return defined(JointKind::Fixed, settings); }
+JointDefinition define(DrivenSettings settings) {
+  JointDefinition joint = defined(JointKind::Driven, settings);
+  joint.driver = std::move(settings.driver);
+  return joint;
+}
+
+}  // namespace pantin

@@ -1,0 +1,71 @@
+#pragma once
+// Joined bodies as the solver sees them: trees of links, parents first. A link is one body or several that
+// Fixed joints make one; its frame L sits at the joint that ties it to its parent. Bodies that are not
+// simulated are ground: a tree hangs on at most one of them, or floats.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <pantin/physics/body_store.hpp>
+#include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/kernel_math.hpp>
+
+namespace pantin {
+
+/// A body of a link.
+struct TreeMember {
+  std::uint32_t body{0};  ///< position in the body store
+  Pose X_LB{};            ///< body origin in the link
+};
+
+struct TreeLink {
+  std::int32_t parent{-1};  ///< link nearer to the root; -1 = ground
+  std::int32_t ground{-1};  ///< body position of the ground of a root link; -1 = the world
+  std::int32_t joint{-1};   ///< position of the joint that ties it; -1 = floating root
+  JointKind kind{JointKind::Fixed};
+  bool reversed{false};      ///< the joint's b is on the parent's side
+  std::uint32_t q{0}, v{0};  ///< where its coordinates and rates begin
+  Pose X_PJ{};               ///< joint frame in the parent link, or in the ground body
+  std::uint32_t members_begin{0}, members_end{0};
+
+  // The same, and the mass of all members, as the kernel wants it.
+  kernel::Mat3<double> R_PJ{};
+  kernel::Vec3<double> p_PJ{};
+  double mass{0};                  ///< [kg]
+  kernel::Vec3<double> moment{};   ///< mass * centre of gravity from L's origin, in L [kg m]
+  kernel::Sym3<double> inertia{};  ///< about L's origin, in L [kg m^2]
+  double damping{0};
+  const Driver* driver{nullptr};
+};
+
+/// A range of links that move together.
+struct Tree {
+  std::uint32_t links_begin{0}, links_end{0};
+  std::uint32_t q_begin{0}, q_end{0}, v_begin{0}, v_end{0};
+  bool follows_driver{false};  ///< an animated ground or a driven joint
+};
+
+/// How bodies and joints are laid out for the solver.
+struct TreeLayout {
+  std::vector<std::uint32_t> free_bodies{};  ///< simulated, without joints: positions, ascending
+  std::vector<TreeLink> links{};
+  std::vector<TreeMember> members{};
+  std::vector<Tree> trees{};
+  std::vector<std::int32_t> link_of_body{};  ///< by body position; -1 = in no tree
+  std::vector<std::int32_t>
+      link_of_joint{};                     ///< by joint position: the link it ties to its parent; -1 = none
+  std::uint32_t coordinates{0}, rates{0};  ///< of all trees
+
+  [[nodiscard]] std::size_t tree_of(std::int32_t link) const;
+};
+
+/// A joint with the positions of its bodies (-1 = ground: the world or a body that is not simulated).
+struct JointEnds {
+  std::int32_t a{-1}, b{-1};
+};
+
+/// Lays out all simulated bodies. `joints` by position; joints between two grounds are idle. Closed loops
+/// must have been refused before.
+[[nodiscard]] TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints);
+
+}  // namespace pantin

@@ -1,0 +1,41 @@
+#include <pantin/physics/state.hpp>
+
+#include <bit>
+
+namespace pantin {
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t h, double x) {
+  std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  for (int i = 0; i < 8; ++i, bits >>= 8) h = (h ^ (bits & 0xff)) * 0x100000001b3ull;
+  return h;
+}
+
+std::uint64_t mixed(std::uint64_t h, const Vector3& v) { return mixed(mixed(mixed(h, v.x()), v.y()), v.z()); }
+
+}  // namespace
+
+bool operator==(const State& a, const State& b) {
+  if (a.topology != b.topology || a.time != b.time || a.bodies.size() != b.bodies.size()) return false;
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    const BodyState &s = a.bodies[i], &t = b.bodies[i];
+    if (s.p_WBcm != t.p_WBcm || s.q_WB.coeffs() != t.q_WB.coeffs() ||
+        s.linear_momentum != t.linear_momentum || s.angular_momentum != t.angular_momentum) {
+      return false;
+    }
+  }
+  return a.coordinates == b.coordinates && a.rates == b.rates;
+}
+
+std::uint64_t hash(const State& state) {
+  std::uint64_t h = mixed(0xcbf29ce484222325ull, state.time);
+  for (const BodyState& s : state.bodies) {
+    h = mixed(h, s.p_WBcm);
+    for (int i = 0; i < 4; ++i) h = mixed(h, s.q_WB.coeffs()[i]);
+    h = mixed(mixed(h, s.linear_momentum), s.angular_momentum);
+  }
+  return h;
+}
+
+}  // namespace pantin

@@ -1,0 +1,35 @@
+#pragma once
+// What a PhysicsManager consists of. Private to physics.
+#include <memory>
+#include <vector>
+
+#include <pantin/physics/body_store.hpp>
+#include <pantin/physics/constraints/constraint_manager.hpp>
+#include <pantin/physics/forces/force_manager.hpp>
+#include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/physics_manager.hpp>
+#include <pantin/physics/world_dynamics.hpp>
+
+namespace pantin {
+
+struct PhysicsManager::Impl {
+  BodyStore bodies{};
+  ForceManager forces{};
+  ConstraintManager constraints{};
+  std::unique_ptr<Integrator> integrator{make_integrator("rk4")};
+  WorldDynamics dynamics{bodies, constraints, forces};
+  std::vector<BodyId> moved{};
+  std::vector<RigidMotion> grounds{};
+  State before{};  ///< of a step that is cut into parts, to go back to
+
+  // The parts of a step, in order (physics_step.cpp).
+  [[nodiscard]] double next_break(double t) const;
+  void pass_break();
+  [[nodiscard]] bool update(double h);
+  void apply_impulses();
+  void list_moved();
+  [[nodiscard]] StepReport failure() const;
+  [[nodiscard]] Energy energy() const;
+};
+
+}  // namespace pantin

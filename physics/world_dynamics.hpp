@@ -1,0 +1,74 @@
+#pragma once
+// The world as an integrator sees it. Coordinates: for each free body position and quaternion, then the joint
+// coordinates of all trees; velocities: for each free body P and L, then the joint rates. P and L of a body
+// without forces stay constant to the bit.
+#include <span>
+#include <vector>
+
+#include <pantin/physics/body_store.hpp>
+#include <pantin/physics/constraints/constraint_manager.hpp>
+#include <pantin/physics/forces/force_manager.hpp>
+#include <pantin/physics/integrators/integrator.hpp>
+
+namespace pantin {
+
+class WorldDynamics final : public Dynamics {
+ public:
+  WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces)
+      : bodies_{bodies}, constraints_{constraints}, forces_{forces} {}
+
+  /// Fits the work space to the bodies and trees of now; the constraint manager must be prepared.
+  void begin();
+  /// Coordinates and velocities of the state reached.
+  [[nodiscard]] std::span<double> coordinates_now();
+  [[nodiscard]] std::span<double> velocities_now();
+  /// Position of the first body whose numbers are not finite, or, for a tree, of the first of its bodies; -1
+  /// if all are.
+  [[nodiscard]] std::int32_t first_not_finite() const;
+  /// Writes coordinates and velocities back to the bodies, at the end of an update. What did not change is
+  /// not written.
+  void write_back(double t);
+  /// Accelerations of all bodies at the state reached, as (angular, of the centre of gravity), and the
+  /// external wrenches that act.
+  void accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
+                         std::vector<Vector3>& a_cm);
+
+  [[nodiscard]] std::size_t coordinates() const override { return q_.size(); }
+  [[nodiscard]] std::size_t velocities() const override { return v_.size(); }
+  void rate(Instant at, std::span<const double> q, std::span<const double> v,
+            std::span<double> q_dot) override;
+  void acceleration(Instant at, std::span<const double> q, std::span<const double> v,
+                    std::span<double> v_dot) override;
+  void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
+                  std::span<double> v_dot) override;
+  void normalise(std::span<double> q) const override;
+  [[nodiscard]] bool acceleration_depends_on_velocity() const override;
+
+  int evaluations{0};  ///< of v' since it was last set to 0
+
+ private:
+  void place_free(std::span<const double> q, std::span<const double> v, std::span<double> q_dot);
+  void place_grounds(Instant at);
+  void place_trees(Instant at, std::span<const double> q, std::span<const double> v);
+  void tree_rates(std::span<const double> q, std::span<const double> v, std::span<double> q_dot) const;
+  void evaluate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
+                std::span<double> v_dot);
+  void gather_wrenches(Instant at);
+  /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
+  /// rewritten).
+  [[nodiscard]] bool is_at_rest(const Tree& tree, Instant at);
+  [[nodiscard]] const std::vector<std::uint32_t>& free_bodies() const {
+    return constraints_.layout().free_bodies;
+  }
+
+  BodyStore& bodies_;
+  ConstraintManager& constraints_;
+  ForceManager& forces_;
+  std::vector<double> q_{}, v_{};
+  std::vector<BodyKinematics> stage_{};
+  std::vector<Wrench> wrenches_{};
+  std::vector<RigidMotion> grounds_{};
+  bool has_animated_{false};
+};
+
+}  // namespace pantin
