@@ -2,6 +2,7 @@
 // the one that a linear map x -> M x takes to M S M^T.
 #include <pantin/physics/mass_properties.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -135,8 +136,12 @@ double volume_of(const ShapeGeometry& geometry) { return checked_solid_of({geome
 
 MassProperties combined(std::span<const MassProperties> parts) {
   MassProperties whole{0, Vector3::Zero(), Matrix3::Zero()};
-  // Centres of gravity are averaged as seen from the first: parts far from the origin lose no digits.
-  const Vector3 reference = parts.empty() ? Vector3::Zero() : parts.front().p_BBcm;
+  if (parts.empty()) return whole;
+  // Centres of gravity are averaged as seen from the first that counts: parts far from the origin lose no
+  // digits.
+  const auto with_mass =
+      std::find_if(parts.begin(), parts.end(), [](const MassProperties& part) { return part.mass > 0; });
+  const Vector3 reference = (with_mass != parts.end() ? with_mass : parts.begin())->p_BBcm;
   Vector3 first_moment = Vector3::Zero();
   for (const MassProperties& part : parts) {
     whole.mass += part.mass;
