@@ -1,7 +1,6 @@
 #include "gltf_animations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace pantin::gltf {
@@ -96,16 +95,10 @@ class AnimationReader {
     const bool rotates = channel == Channel::Rotation;
     Track track{
         .channel = channel, .interpolation = interpolation_in(report_, sampler), .width = rotates ? 4 : 3};
-    track.times = read_times(sampler);
+    track.times = accessors_.read(accessor_of(sampler, "input"), AccessorUse::Time).numbers;
     const JsonValue accessor = accessor_of(sampler, "output");
     AccessorData data = accessors_.read(accessor, rotates ? AccessorUse::Rotation : AccessorUse::Vector);
-    const std::size_t per_key = track.interpolation == Interpolation::CubicSpline ? 3 : 1;
-    if (data.count != per_key * track.times.size())
-      report_.refuse(sampler,
-                     "has " + std::to_string(track.times.size()) + " keys but " + std::to_string(data.count) +
-                         " values" + (per_key == 3 ? ", not three a key" : ""),
-                     "export the animation again");
-    if (rotates) to_our_quaternions(accessor, data, per_key == 3);
+    if (rotates) to_our_quaternions(accessor, data, track.interpolation == Interpolation::CubicSpline);
     track.values = std::move(data.numbers);
     return track;
   }
@@ -113,22 +106,6 @@ class AnimationReader {
   JsonValue accessor_of(const JsonValue& sampler, std::string_view key) const {
     return document_.item(Collection::Accessors,
                           document_.index(require(report_, sampler, key), Collection::Accessors));
-  }
-
-  std::vector<double> read_times(const JsonValue& sampler) {
-    const JsonValue accessor = accessor_of(sampler, "input");
-    AccessorData data = accessors_.read(accessor, AccessorUse::Time);
-    const std::vector<double>& times = data.numbers;
-    if (times.front() < 0)
-      report_.refuse(accessor, "the first key is at " + std::to_string(times.front()) + " s",
-                     "start the animation at 0 s or later");
-    const auto late = std::ranges::adjacent_find(times, std::greater_equal<>{});
-    if (late != times.end())
-      report_.refuse(
-          accessor,
-          "key " + std::to_string(late - times.begin() + 1) + " is not later than the key before it",
-          "sort the keys and keep one for each time");
-    return std::move(data.numbers);
   }
 
   /// From x, y, z, w to w, x, y, z. Values that are interpolated on the sphere are made unit; those of
@@ -202,9 +179,10 @@ void read_animations(const Document& document, const SceneNodes& nodes, Accessor
   for (std::size_t i = 0; i < document.count(Collection::Animations); ++i) {
     const JsonValue animation = document.item(Collection::Animations, i);
     report.try_part([&] {
+      const std::size_t errors = report.error_count();
       Clip clip = reader.read(animation);
       if (!clip.tracks.empty()) model.clips.push_back(std::move(clip));
-      else
+      else if (report.error_count() == errors)
         report.tally(Severity::Warning, animation, "the animation moves no node of the scene: dropped", "");
     });
   }

@@ -35,6 +35,11 @@ std::string subject_of(const JsonValue& value) {
   return subject;
 }
 
+std::string Report::place(const JsonValue& at) const {
+  const std::string pointer = at.pointer();
+  return pointer.empty() ? file_ : file_ + '#' + pointer;
+}
+
 void Report::add_error(Diagnostic diagnostic) {
   if (++errors_ <= kToldErrors) findings_.push_back({std::move(diagnostic)});
 }

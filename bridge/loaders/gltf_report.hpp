@@ -47,10 +47,11 @@ class Report {
   }
 
   [[nodiscard]] bool has_errors() const noexcept { return errors_ > 0; }
+  [[nodiscard]] std::size_t error_count() const noexcept { return errors_; }
   /// Leaves the part being read if anything was refused so far.
   void stop_at_errors() const;
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
-  [[nodiscard]] std::string place(const JsonValue& at) const { return file_ + '#' + at.pointer(); }
+  [[nodiscard]] std::string place(const JsonValue& at) const;
   /// Everything found, in the order of first occurrence.
   [[nodiscard]] std::vector<Diagnostic> take();
 
