@@ -20,10 +20,8 @@ void JsonStream::separate() {
   if (open_.empty()) return;
   Open& inner = open_.back();
   if (!inner.empty) out_ << ',';
-  if (inner.layout == JsonLayout::Lines)
-    out_ << '\n';
-  else if (!inner.empty)
-    out_ << ' ';
+  if (inner.layout == JsonLayout::Lines) out_ << '\n';
+  else if (!inner.empty) out_ << ' ';
   inner.empty = false;
 }
 

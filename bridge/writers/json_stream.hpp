@@ -1,6 +1,7 @@
 #pragma once
-// Writes JSON as it becomes known, so that a long run needs no more memory than one sample. Texts and numbers are
-// formatted by nlohmann-json: numbers read back to the same double, bytes that are not UTF-8 become U+FFFD.
+// Writes JSON as it becomes known, so that a long run needs no more memory than one sample. Texts and numbers
+// are formatted by nlohmann-json: numbers read back to the same double, bytes that are not UTF-8 become
+// U+FFFD.
 #include <cstdint>
 #include <ostream>
 #include <span>
@@ -17,8 +18,8 @@ enum class JsonLayout {
   Lines,    ///< each on a line of its own
 };
 
-/// A value follows `key` in an object, nothing in an array. Objects and arrays have to be closed in order; one that is
-/// open inside another belongs to it.
+/// A value follows `key` in an object, nothing in an array. Objects and arrays have to be closed in order;
+/// one that is open inside another belongs to it.
 class JsonStream {
  public:
   explicit JsonStream(std::ostream& out) : out_{out} {}

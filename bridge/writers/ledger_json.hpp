@@ -15,7 +15,7 @@ void write_ledger(JsonStream& json, std::span<const Diagnostic> ledger);
 
 /// What a check found out about one file.
 struct CheckedFile {
-  std::string file{};                  ///< as it was named
+  std::string file{};  ///< as it was named
   bool ok{false};
   std::vector<Diagnostic> ledger{};
 };

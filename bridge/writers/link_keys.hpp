@@ -1,6 +1,6 @@
 #pragma once
-// How the links of a scene are called in text: by their own name where no other link of the scene has it, else by the
-// path of the node that they move.
+// How the links of a scene are called in text: by their own name where no other link of the scene has it,
+// else by the path of the node that they move.
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -17,7 +17,8 @@ class LinkKeys {
 
   /// The key of the link at a node; the node's path if it had none at construction.
   [[nodiscard]] std::string key(NodeId id) const;
-  /// The node whose link has this key, or whose path this is; null if there is none. A path need not be a link's.
+  /// The node whose link has this key, or whose path this is; null if there is none. A path need not be a
+  /// link's.
   [[nodiscard]] NodeId find(std::string_view key) const;
   /// All keys, in the scene's order.
   [[nodiscard]] std::vector<std::string> all() const;

@@ -9,12 +9,9 @@ namespace {
 
 /// A number for one, an array for several, null for none.
 void write_value(JsonStream& json, std::span<const double> numbers) {
-  if (numbers.empty())
-    json.null();
-  else if (numbers.size() == 1)
-    json.value(numbers.front());
-  else
-    json.value(numbers);
+  if (numbers.empty()) json.null();
+  else if (numbers.size() == 1) json.value(numbers.front());
+  else json.value(numbers);
 }
 
 void write_link(JsonStream& json, const Link& link, const LinkValue& value) {
@@ -80,14 +77,13 @@ void write_node(JsonStream& json, const ModelInScene& view, std::size_t i) {
   const NodeId id = view.nodes[i];
   json.begin_object().member("path", view.scene.path(id)).member("name", node.name);
   json.key("parent");
-  node.parent < 0 ? json.null() : json.value(view.scene.path(view.nodes[static_cast<std::size_t>(node.parent)]));
+  node.parent < 0 ? json.null()
+                  : json.value(view.scene.path(view.nodes[static_cast<std::size_t>(node.parent)]));
   json.member("local", view.scene.local(id)).member("absolute", view.scene.world(id));
   json.key("link");
   const Link* placed = view.scene.link(id);
-  if (node.link)
-    write_link(json, *node.link, placed != nullptr ? placed->value : node.link->value);
-  else
-    json.null();
+  if (node.link) write_link(json, *node.link, placed != nullptr ? placed->value : node.link->value);
+  else json.null();
   write_mass(json, node.mass);
   write_solids(json, node);
   json.end_object();

@@ -1,10 +1,10 @@
 #include <pantin/bridge/writers/output_file.hpp>
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 
 namespace pantin {
 namespace fs = std::filesystem;
@@ -26,7 +26,8 @@ struct OutputFile::Impl {
 namespace {
 
 Diagnostic cannot_write(const fs::path& file, const std::string& why) {
-  return {Severity::Error, file.string(), "output file", why, "name a file in a folder that can be written to"};
+  return {Severity::Error, file.string(), "output file", why,
+          "name a file in a folder that can be written to"};
 }
 
 /// Makes an empty file of a new name beside `target` with the permissions of any new file; 0 or the error.

@@ -1,5 +1,6 @@
 #pragma once
-// A file that appears whole or not at all: written under a temporary name in the same folder, renamed at the end.
+// A file that appears whole or not at all: written under a temporary name in the same folder, renamed at the
+// end.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -12,8 +13,8 @@ namespace pantin {
 
 class OutputFile {
  public:
-  /// Opens a temporary file beside `file`, following a symbolic link. No value and an error where that cannot be done,
-  /// also where `file` exists and is no regular file. Never throws.
+  /// Opens a temporary file beside `file`, following a symbolic link. No value and an error where that cannot
+  /// be done, also where `file` exists and is no regular file. Never throws.
   [[nodiscard]] static Loaded<OutputFile> open(const std::filesystem::path& file);
 
   OutputFile(OutputFile&&) noexcept;

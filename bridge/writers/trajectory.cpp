@@ -2,7 +2,8 @@
 
 namespace pantin {
 
-TrajectoryRecorder::TrajectoryRecorder(const Scene& scene, const PhysicsManager& physics, const Bridge& bridge)
+TrajectoryRecorder::TrajectoryRecorder(const Scene& scene, const PhysicsManager& physics,
+                                       const Bridge& bridge)
     : scene_{scene}, physics_{physics}, bridge_{bridge}, keys_{scene} {}
 
 const TrajectoryRecorder::Names& TrajectoryRecorder::names_of(NodeId id) {

@@ -15,8 +15,8 @@
 // | joint_rate       | its rate                                                                    |
 // | kinetic potential| energies of the whole scene at that time [J]                                |
 //
-// Numbers are the shortest decimals that read back to the same double, whatever the locale; "nan", "inf" where not
-// finite.
+// Numbers are the shortest decimals that read back to the same double, whatever the locale; "nan", "inf"
+// where not finite.
 #include <ostream>
 
 #include <pantin/bridge/writers/trajectory.hpp>

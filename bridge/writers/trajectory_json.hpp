@@ -1,5 +1,6 @@
 #pragma once
-// A trajectory as JSON: {"samples": [{"t", "bodies", "joints", "energy"}, ...], "summary", "ledger"}, a sample a line.
+// A trajectory as JSON: {"samples": [{"t", "bodies", "joints", "energy"}, ...], "summary", "ledger"}, a
+// sample a line.
 #include <ostream>
 
 #include <pantin/bridge/writers/json_stream.hpp>

@@ -1,0 +1,138 @@
+#include <pantin/bridge/cli/configure_links.hpp>
+
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include <pantin/bridge/writers/link_keys.hpp>
+
+#include <pantin/bridge/cli/arguments.hpp>
+#include <pantin/bridge/cli/near_names.hpp>
+#include <pantin/bridge/cli/text_table.hpp>
+
+namespace pantin::cli {
+namespace {
+
+constexpr const char* kOption = "--joint";
+
+struct Setting {
+  NodeId node{};
+  LinkValue value{};
+};
+
+/// The numbers as a value of the link, quaternions normalised; nothing and a note where they do not fit.
+std::optional<LinkValue> value_for(const Link& link, const std::vector<double>& numbers) {
+  if (numbers.size() != static_cast<std::size_t>(value_size(link.kind))) return std::nullopt;
+  std::vector<double> fitted = numbers;
+  if (fitted.size() >= 4) {  // the quaternion comes last
+    double norm = 0;
+    for (std::size_t i = fitted.size() - 4; i < fitted.size(); ++i) norm = std::hypot(norm, fitted[i]);
+    if (!(norm > 0)) return std::nullopt;
+    for (std::size_t i = fitted.size() - 4; i < fitted.size(); ++i) fitted[i] /= norm;
+  }
+  return LinkValue{std::span<const double>{fitted}};
+}
+
+std::string wanted_of(LinkKind kind) {
+  switch (kind) {
+    case LinkKind::Pivot:
+      return "give one angle in rad";
+    case LinkKind::Slider:
+      return "give one distance in m";
+    case LinkKind::Ball:
+      return "give a quaternion w,x,y,z that is not 0";
+    case LinkKind::Free:
+      return "give x,y,z in m and a quaternion w,x,y,z that is not 0";
+    case LinkKind::Fixed:
+      break;
+  }
+  return "leave it out";
+}
+
+std::vector<Diagnostic> resolve(const Scene& scene, const LinkKeys& keys, const std::string& text,
+                                std::vector<Setting>& settings) {
+  const JointArgument argument = parse_joint(text).value_or(JointArgument{});
+  const NodeId node = keys.find(argument.name);
+  const Link* link = node ? scene.link(node) : nullptr;
+  if (link == nullptr)
+    return {argument_error(kOption, text, node ? "this node has no link" : "no link has this name",
+                           suggestion(argument.name, keys.all()))};
+  const std::string kind{to_string(link->kind)};
+  if (link->kind == LinkKind::Fixed)
+    return {argument_error(kOption, text, "the link is fixed and has no value", wanted_of(link->kind))};
+  for (const Setting& earlier : settings)
+    if (earlier.node == node)
+      return {
+          argument_error(kOption, text, "the link '" + keys.key(node) + "' is set twice", "give it once")};
+  const std::optional<LinkValue> value = value_for(*link, argument.value);
+  if (!value)
+    return {argument_error(kOption, text, "the value does not fit a " + kind, wanted_of(link->kind))};
+  settings.push_back({node, *value});
+  return {};
+}
+
+/// Warns where a number leaves its limits.
+void judge_limits(const Scene& scene, const LinkKeys& keys, const Setting& setting,
+                  std::vector<Diagnostic>& notes) {
+  const Link& link = *scene.link(setting.node);
+  if (setting.value.size() != 1) return;
+  const double value = setting.value[0];
+  if (value >= link.lower && value <= link.upper) return;
+  notes.push_back({Severity::Warning, "command line", "joint '" + keys.key(setting.node) + "'",
+                   "the value " + short_number(value) + " is outside the limits " + short_number(link.lower) +
+                       " to " + short_number(link.upper) + "; it was set nevertheless",
+                   "give a value within the limits"});
+}
+
+/// Sets what follows the named links, breadth first, each once.
+void follow_mimics(Scene& scene, const std::vector<NodeId>& model, const std::vector<Setting>& settings) {
+  std::unordered_multimap<std::string, NodeId> followers;  // by the name of what leads
+  std::unordered_set<NodeId> done;
+  for (const NodeId id : model) {
+    const Link* link = scene.link(id);
+    if (link != nullptr && link->mimic) followers.emplace(link->mimic->source, id);
+  }
+  std::vector<NodeId> leaders;
+  for (const Setting& setting : settings) {
+    done.insert(setting.node);
+    leaders.push_back(setting.node);
+  }
+  const std::unordered_set<NodeId> members(model.begin(), model.end());
+  std::erase_if(leaders, [&](NodeId id) { return !members.contains(id); });
+  for (std::size_t i = 0; i < leaders.size(); ++i) {
+    const Link* leader = scene.link(leaders[i]);
+    if (leader->value.size() != 1) continue;
+    const double leading = leader->value[0];
+    const auto [first, last] = followers.equal_range(leader->name);
+    for (auto entry = first; entry != last; ++entry) {
+      if (!done.insert(entry->second).second) continue;
+      const LinkMimic& mimic = *scene.link(entry->second)->mimic;
+      scene.set_link_value(entry->second, mimic.multiplier * leading + mimic.offset);
+      leaders.push_back(entry->second);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Diagnostic> configure_links(Scene& scene, const std::vector<std::string>& arguments,
+                                        const std::vector<std::vector<NodeId>>& models) {
+  std::vector<Diagnostic> notes;
+  if (arguments.empty()) return notes;
+  const LinkKeys keys{scene};
+  std::vector<Setting> settings;
+  for (const std::string& text : arguments) {
+    const std::vector<Diagnostic> errors = resolve(scene, keys, text, settings);
+    notes.insert(notes.end(), errors.begin(), errors.end());
+  }
+  if (has_error(notes)) return notes;
+  for (const Setting& setting : settings) {
+    judge_limits(scene, keys, setting, notes);
+    scene.set_link_value(setting.node, setting.value);
+  }
+  for (const std::vector<NodeId>& model : models) follow_mimics(scene, model, settings);
+  return notes;
+}
+
+}  // namespace pantin::cli
