@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pantin/bridge/problems/rigid_ref.hpp>
+
+#include "good_problem.hpp"
+#include "reference_run.hpp"
+
+namespace pantin::test {
+namespace {
+
+using nlohmann::json;
+
+ReferenceProblem problem_of(const json& text) {
+  Loaded<ReferenceProblem> read = parse_rigid_ref(text.dump(), "f");
+  if (!read.value) ADD_FAILURE() << lines(read.notes);
+  return read.value.value_or(ReferenceProblem{});
+}
+
+TEST(Instantiate, BuildsBodiesAsTheyAreGiven) {
+  // What the file says, read back from physics; rounding of one rotation.
+  PhysicsManager physics;
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(buildable()), physics);
+  ASSERT_TRUE(built.value.has_value()) << lines(built.notes);
+  EXPECT_EQ(built.value->bodies.size(), 3u);
+  EXPECT_EQ(built.value->joints.size(), 2u);
+  EXPECT_EQ(built.value->forces.size(), 4u);  // gravity and three of the file
+  const RigidBody rod = physics.body(built.value->bodies.at("rod"));
+  EXPECT_EQ(rod.name(), "rod");
+  EXPECT_EQ(rod.kind(), BodyKind::Simulated);
+  EXPECT_EQ(rod.mass(), 2);
+  EXPECT_LT((rod.p_WBcm() - Vector3{0.5, 2, 3}).norm(), 1e-15);
+  EXPECT_LT((rod.X_WB().p - Vector3{1, 2, 3}).norm(), 1e-15);
+  EXPECT_LT((rod.v_WBcm() - Vector3{0, -1.5, 0}).norm(), 1e-15);
+  EXPECT_LT((rod.w_WB() - Vector3{0, 0, 3}).norm(), 1e-14);
+  EXPECT_EQ(physics.body(built.value->bodies.at("arm")).kind(), BodyKind::Animated);
+}
+
+TEST(Instantiate, StartsJointsAtZeroWithTheFilesAxisAndSense) {
+  // The rod turns at 3 rad/s about +z against the world, so the hinge's rate is +3; the start pose is zero.
+  PhysicsManager physics;
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(buildable()), physics);
+  ASSERT_TRUE(built.value.has_value());
+  const JointId hinge = built.value->joints.at("hinge");
+  EXPECT_NEAR(double{physics.joint_value(hinge)}, 0, 1e-15);
+  EXPECT_NEAR(double{physics.joint_rate(hinge)}, 3, 1e-14);
+  EXPECT_LT(physics.joint_drift().distance, 1e-15);
+}
+
+TEST(Instantiate, ExchangesTheEndsOfAJointWhoseSecondIsTheWorld) {
+  // B against A is then the world against the rod: -3 rad/s about +z.
+  json problem = buildable();
+  problem["joints"][0]["body_a"] = "rod";
+  problem["joints"][0]["body_b"] = "world";
+  PhysicsManager physics;
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(problem), physics);
+  ASSERT_TRUE(built.value.has_value()) << lines(built.notes);
+  EXPECT_NEAR(double{physics.joint_rate(built.value->joints.at("hinge"))}, -3, 1e-14);
+}
+
+TEST(Instantiate, MovesKinematicBodiesByTheirLaw) {
+  // angle(t) = 0.5 sin(2 t + 0.3) + 0.7 t; the start attitude belongs to t = 0, so the arm has turned by
+  // angle(t) - angle(0) about y. Rates are central differences' limits, known in closed form.
+  json text = buildable();
+  text["kinematic_bodies"][0]["law"] = {
+      {"type", "sine"}, {"amplitude", 0.5}, {"omega", 2}, {"phase", 0.3}, {"rate", 0.7}};
+  text["kinematic_bodies"][0]["orientation_wxyz"] = {0, 1, 0, 0};
+  PhysicsManager physics;
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(text), physics);
+  ASSERT_TRUE(built.value.has_value());
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(physics.step(0.05).ok());
+  const RigidBody arm = physics.body(built.value->bodies.at("arm"));
+  const double angle = 0.5 * (std::sin(1.3) - std::sin(0.3)) + 0.35, rate = std::cos(1.3) + 0.7;
+  const Quaternion expected = Quaternion{Eigen::AngleAxisd{angle, Vector3::UnitY()}} * Quaternion{0, 1, 0, 0};
+  EXPECT_LT(attitude_error(arm.q_WB(), expected), 1e-14);
+  EXPECT_LT((arm.w_WB() - Vector3{0, rate, 0}).norm(), 1e-14);
+  EXPECT_LT((arm.X_WB().p - Vector3{5, 0, 0}).norm(), 1e-14);
+}
+
+TEST(Instantiate, FollowsAUniformlyAcceleratedLaw) {
+  // angle = 0.4 t + 3 t^2 / 2, closed form at 0.5 s.
+  const reference::AngleAt at =
+      evaluate(reference::UniformAccelerationLaw{.rate = 0.4, .acceleration = 3}, 0.5);
+  EXPECT_NEAR(at.angle, 0.575, 1e-15);
+  EXPECT_NEAR(at.rate, 1.9, 1e-15);
+  EXPECT_EQ(at.acceleration, 3);
+}
+
+TEST(Instantiate, GivesALawWhoseDerivativesAreThoseOfItsAngle) {
+  // Central differences of step 1e-4 are right to about 1e-8 times the third derivative.
+  const reference::AngleLaw law = reference::SineLaw{.amplitude = 0.7, .omega = 3, .phase = 0.4, .rate = -1};
+  const double h = 1e-4;
+  for (const double t : {0.0, 0.3, 1.7}) {
+    const reference::AngleAt before = evaluate(law, t - h), now = evaluate(law, t),
+                             after = evaluate(law, t + h);
+    EXPECT_NEAR(now.rate, (after.angle - before.angle) / (2 * h), 1e-6);
+    EXPECT_NEAR(now.acceleration, (after.rate - before.rate) / (2 * h), 1e-6);
+  }
+}
+
+/// A change after which physics must refuse the problem, and what must be said about it.
+struct Unsupported {
+  const char* name;
+  void (*change)(json&);
+  const char* says;
+};
+
+class InstantiateRefuses : public testing::TestWithParam<Unsupported> {};
+
+TEST_P(InstantiateRefuses, ByNameAndLeavesPhysicsAsItWas) {
+  // The file is good, physics cannot hold it: one error, and not a single part has been built.
+  json problem = buildable();
+  GetParam().change(problem);
+  PhysicsManager physics;
+  const BodyId there = physics.add(RigidBodySettings{.name = "there before"});
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(problem), physics);
+  EXPECT_FALSE(built.value.has_value());
+  EXPECT_EQ(lines(built.notes), std::string{"f#"} + GetParam().says + '\n');
+  EXPECT_EQ(physics.bodies().size(), 1u);
+  EXPECT_TRUE(physics.contains(there));
+  EXPECT_TRUE(physics.joints().empty());
+  EXPECT_EQ(physics.forces().size(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Instantiate, InstantiateRefuses,
+    testing::Values(
+        Unsupported{
+            "Particles", [](json& p) { p["particles"] = good()["particles"]; },
+            "/particles/0: error: particle 'p': physics has no particles yet; give it as a body with an "
+            "inertia"},
+        Unsupported{"Contacts", [](json& p) { p["contacts"] = good()["contacts"]; },
+                    "/contacts/0: error: contact sphere_plane: physics has no contacts yet; leave it out if "
+                    "the bodies "
+                    "never touch"},
+        Unsupported{
+            "CentralGravity",
+            [](json& p) {
+              p["forces"].push_back(
+                  {{"type", "central_gravity"}, {"body", "rod"}, {"center", {0, 0, 0}}, {"mu", 1}});
+            },
+            "/forces/3: error: force central_gravity: physics has no such law yet; add it as a ForceLaw of "
+            "your own"},
+        Unsupported{
+            "QuadraticDrag",
+            [](json& p) {
+              p["forces"].push_back({{"type", "quadratic_drag"}, {"body", "rod"}, {"coefficient", 1}});
+            },
+            "/forces/3: error: force quadratic_drag: physics has no such law yet; add it as a ForceLaw of "
+            "your "
+            "own"},
+        Unsupported{"ClosedLoop",
+                    [](json& p) {
+                      // World and arm count as one: neither moves freely.
+                      p["joints"].push_back({{"type", "ball"},
+                                             {"name", "loop"},
+                                             {"body_a", "bob"},
+                                             {"body_b", "rod"},
+                                             {"anchor_world", {5, 0, 0}}});
+                      p["bodies"][0]["angular_velocity_world"] = {0, 0, 0};
+                      p["bodies"][0]["velocity_cog"] = {0, 0, 0};
+                    },
+                    "/joints/2: error: joint 'loop': closes a loop, which physics cannot hold yet; leave one "
+                    "joint of "
+                    "the loop out"}),
+    [](const auto& test) { return std::string{test.param.name}; });
+
+TEST(Instantiate, RefusesAValueThatIsNoProblem) {
+  // A problem that did not come from a file is judged by the same rules.
+  ReferenceProblem problem = problem_of(buildable());
+  problem.bodies[0].mass.mass = -1;
+  PhysicsManager physics;
+  EXPECT_FALSE(instantiate(problem, physics).value.has_value());
+  EXPECT_TRUE(physics.bodies().empty());
+}
+
+TEST(Instantiate, TakesOutWhatItBuiltWhenAJointMovesNothingThatResists) {
+  // A bob without inertia on a ball joint in its centre of gravity: turning it takes no torque, so its motion
+  // is not determined; the words are those of singular_joints.
+  json problem = buildable();
+  problem["bodies"][1]["inertia_cog_body"] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  problem["joints"][1]["type"] = "ball";
+  PhysicsManager physics;
+  const Loaded<ReferenceInstance> built = instantiate(problem_of(problem), physics);
+  EXPECT_FALSE(built.value.has_value());
+  EXPECT_NE(lines(built.notes).find("f#/joints/1: error: joint 'wrist': "), std::string::npos)
+      << lines(built.notes);
+  EXPECT_TRUE(physics.bodies().empty());
+  EXPECT_TRUE(physics.joints().empty());
+  EXPECT_EQ(physics.forces().size(), 0u);
+}
+
+}  // namespace
+}  // namespace pantin::test
