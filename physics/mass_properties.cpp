@@ -75,7 +75,7 @@ SettingsProblem unphysical(const std::string& text, const std::string& remedy) {
   return {ProblemCode::Unphysical, "mass properties: " + text, remedy};
 }
 
-std::optional<SettingsProblem> inertia_problem(const Matrix3& I) {
+std::optional<SettingsProblem> inertia_problem(const Matrix3& I, InertiaCheck check) {
   const double largest = I.cwiseAbs().maxCoeff();
   if (largest == 0) return std::nullopt;
   if (((I - I.transpose()).cwiseAbs().array() > kInertiaTolerance * largest).any()) {
@@ -91,7 +91,7 @@ std::optional<SettingsProblem> inertia_problem(const Matrix3& I) {
                       "take the inertia about the centre of gravity, with products "
                       "of inertia as -sum of m x y");
   }
-  if (moments[0] + moments[1] < moments[2] * (1 - kInertiaTolerance)) {
+  if (check == InertiaCheck::Physical && moments[0] + moments[1] < moments[2] * (1 - kInertiaTolerance)) {
     return unphysical(text + "no body has one that exceeds the sum of the others",
                       "take the inertia about the centre of gravity from the body's shape");
   }
@@ -100,7 +100,7 @@ std::optional<SettingsProblem> inertia_problem(const Matrix3& I) {
 
 }  // namespace
 
-std::optional<SettingsProblem> problem_with(const MassProperties& mass) {
+std::optional<SettingsProblem> problem_with(const MassProperties& mass, InertiaCheck check) {
   if (std::optional<SettingsProblem> problem =
           first_problem({must_be_finite({"mass properties", "mass", "kg"}, mass.mass),
                          must_be_finite({"mass properties", "centre of gravity", "m"}, mass.p_BBcm)})) {
@@ -120,7 +120,7 @@ std::optional<SettingsProblem> problem_with(const MassProperties& mass) {
     return unphysical("inertia is " + text_of(mass.I_BBcm_B) + " kg m^2 but mass is zero",
                       "give a mass above zero, or zero inertia");
   }
-  return inertia_problem(mass.I_BBcm_B);
+  return inertia_problem(mass.I_BBcm_B, check);
 }
 
 MassProperties mass_of(const Shape& shape, double density) {

@@ -16,10 +16,17 @@ struct MassProperties {
   Matrix3 I_BBcm_B{Matrix3::Identity()};  ///< inertia about the centre of gravity, axes of B [kg m^2]
 };
 
-/// Negative or non-finite mass, an inertia that is not symmetric or not positive semi-definite, principal
-/// moments with A + B < C (tolerance 1e-9 relative), inertia without mass. Massless is allowed here: it is a
-/// body carried by others; whether it can move is judged with what it is joined to.
-[[nodiscard]] std::optional<SettingsProblem> problem_with(const MassProperties& mass);
+/// How strictly an inertia is judged.
+enum class InertiaCheck {
+  Physical,  ///< the inertia of some distribution of mass: principal moments A + B >= C
+  Solvable,  ///< positive semi-definite is enough, as in many robot files and textbook problems
+};
+
+/// Negative or non-finite mass, an inertia that is not symmetric or not positive semi-definite, principal moments with
+/// A + B < C (unless waived; tolerances 1e-9 relative), inertia without mass. Massless is allowed here: it is a body
+/// carried by others; whether it can move is judged with what it is joined to.
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const MassProperties& mass,
+                                                          InertiaCheck check = InertiaCheck::Physical);
 
 /// Of a solid of uniform density [kg/m^3], >= 0, in the frame of its carrier (X_BS applied). The shape must
 /// have no problem and a mesh must be closed (closedness_problem), else the contract is broken. Mesh: exact

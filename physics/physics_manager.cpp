@@ -74,8 +74,8 @@ void PhysicsManager::make_static(BodyId id) {
   bodies.place(i, bodies.X_WB(i), Vector3::Zero(), Vector3::Zero());
 }
 
-void PhysicsManager::set_mass_properties(BodyId id, const MassProperties& mass) {
-  check(problem_with(mass));
+void PhysicsManager::set_mass_properties(BodyId id, const MassProperties& mass, InertiaCheck strictness) {
+  check(problem_with(mass, strictness));
   BodyStore& bodies = impl_->bodies;
   const std::size_t i = bodies.at(id);
   impl_->constraints.stale(bodies);

@@ -8,7 +8,7 @@ namespace pantin {
 
 std::optional<SettingsProblem> problem_with(const RigidBodySettings& settings) {
   const std::string subject = "body '" + settings.name + "': ";
-  if (std::optional<SettingsProblem> problem = problem_with(settings.mass)) {
+  if (std::optional<SettingsProblem> problem = problem_with(settings.mass, settings.inertia_check)) {
     problem->text = subject + problem->text;
     return problem;
   }
