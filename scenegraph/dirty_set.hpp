@@ -1,6 +1,7 @@
 #pragma once
-// Private to scenegraph. Which positions of the dense arrays have a changed local matrix: a bit a position, and above
-// it a summary bit for each 64 of them, so that the next dirty position is found without touching clean words.
+// Private to scenegraph. Which positions of the dense arrays have a changed local matrix: a bit a position,
+// and above it a summary bit for each 64 of them, so that the next dirty position is found without touching
+// clean words.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

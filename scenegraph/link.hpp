@@ -1,7 +1,7 @@
 #pragma once
-// A link says how a node moves against its parent: which kind, about which axis, where zero is, how far, and the
-// present value. It turns a value into a local matrix and a local matrix back into a value. It is geometry only: no
-// mass, no force; the bridge makes a physics joint of it when the node is simulated.
+// A link says how a node moves against its parent: which kind, about which axis, where zero is, how far, and
+// the present value. It turns a value into a local matrix and a local matrix back into a value. It is
+// geometry only: no mass, no force; the bridge makes a physics joint of it when the node is simulated.
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -52,25 +52,29 @@ class LinkValue {
 
 /// The value follows another link's: value = multiplier * source + offset.
 struct LinkMimic {
-  std::string source;       ///< name of the link that leads
+  std::string source;  ///< name of the link that leads
   double multiplier{1};
-  double offset{0};         ///< [rad] or [m]
+  double offset{0};  ///< [rad] or [m]
 };
 
 /// M_PN(value) = M_PJ * T(value) * M_JN. Zero is where T is the identity.
 struct Link {
   LinkKind kind{LinkKind::Fixed};
-  std::string name{};                                          ///< may be empty
-  Affine M_PJ{Affine::Identity()};                             ///< joint frame in the parent node
-  Affine M_JN{Affine::Identity()};                             ///< node in the moved joint frame; not singular
-  Vector3 axis{Vector3::UnitZ()};                              ///< unit, in J; for Pivot and Slider
-  double lower{-std::numeric_limits<double>::infinity()};      ///< [rad] or [m]; lower <= upper
-  double upper{std::numeric_limits<double>::infinity()};       ///< [rad] or [m]
-  std::optional<LinkMimic> mimic{};                            ///< Pivot and Slider only
-  LinkValue value{};                                           ///< present value; its size fits the kind
+  std::string name{};                                      ///< may be empty
+  Affine M_PJ{Affine::Identity()};                         ///< joint frame in the parent node
+  Affine M_JN{Affine::Identity()};                         ///< node in the moved joint frame; not singular
+  Vector3 axis{Vector3::UnitZ()};                          ///< unit, in J; for Pivot and Slider
+  double lower{-std::numeric_limits<double>::infinity()};  ///< [rad] or [m]; lower <= upper; Pivot and Slider
+  double upper{std::numeric_limits<double>::infinity()};   ///< [rad] or [m]
+  std::optional<LinkMimic> mimic{};                        ///< Pivot and Slider only
+  LinkValue value{};                                       ///< present value; its size fits the kind
 };
 
-/// What is wrong with the settings (axis not unit, value of another size, singular frame, ...); empty if nothing is.
+/// What is wrong with a value for a link of this kind (count, not finite, quaternion of length 0); empty if
+/// nothing is.
+[[nodiscard]] std::string problem_with(LinkKind kind, const LinkValue& value);
+/// What is wrong with the settings (axis not unit, value of another size, singular frame, ...); empty if
+/// nothing is.
 [[nodiscard]] std::string problem_with(const Link& link);
 
 /// The local matrix M_PN that the link has at `value`. Quaternions are normalised.
@@ -82,8 +86,10 @@ struct LinkFit {
   double residual{0};  ///< greatest entry of |M_PN - local_matrix(link, value)|
 };
 
-/// The value at which the link's local matrix is nearest to `M_PN`. A pivot's angle is the one nearest to `near`, so
-/// that whole turns are kept; a quaternion has the sign nearest to `near`.
+/// The value at which T is nearest to inverse(M_PJ) * M_PN * inverse(M_JN), least squares over its entries:
+/// rotation and translation each by themselves. A pivot's angle is the one nearest to `near`, so that whole
+/// turns are kept; a quaternion has the sign nearest to `near`. `near` must fit the kind; where the matrix
+/// says nothing about the angle (a flip about another axis), it is `near` itself. Limits are not applied.
 [[nodiscard]] LinkFit fit_link(const Link& link, const Affine& M_PN, const LinkValue& near);
 
 }  // namespace pantin

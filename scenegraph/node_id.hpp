@@ -6,8 +6,8 @@
 
 namespace pantin {
 
-/// Index and generation of a node; null by default. A removed node's id stays invalid for ever, also after its slot
-/// was given to another node.
+/// Index and generation of a node; null by default. A removed node's id stays invalid for ever, also after
+/// its slot was given to another node.
 struct NodeId {
   std::uint32_t index{0};
   std::uint32_t generation{0};  ///< 0 = null

@@ -12,7 +12,8 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 
 std::uint32_t Scene::Impl::at(NodeId id) const {
   PANTIN_EXPECTS(nodes.contains(id),
-                 "node id (index " + std::to_string(id.index) + ", generation " + std::to_string(id.generation) +
+                 "node id (index " + std::to_string(id.index) + ", generation " +
+                     std::to_string(id.generation) +
                      ") is null or was removed; drop ids with their nodes or ask contains() first");
   return nodes.position(id);
 }
@@ -28,8 +29,9 @@ bool Scene::contains(NodeId id) const noexcept { return impl_->nodes.contains(id
 
 NodeId Scene::create(NodeId parent, std::string_view name, const Affine& M_PN) {
   const std::uint32_t above = impl_->at(parent);
-  PANTIN_EXPECTS(M_PN.affine().allFinite(), "local matrix of the new node '" + std::string{name} + "' under " +
-                                                impl_->called(above) + " has an entry that is not finite");
+  PANTIN_EXPECTS(M_PN.affine().allFinite(), "local matrix of the new node '" + std::string{name} +
+                                                "' under " + impl_->called(above) +
+                                                " has an entry that is not finite");
   const NodeId id = impl_->nodes.append(above, Matrix34::from(M_PN));
   if (impl_->names.size() <= id.index) impl_->names.resize(id.index + std::size_t{1});
   impl_->names[id.index] = name;
@@ -63,7 +65,8 @@ void Scene::rename(NodeId id, std::string_view name) {
 }
 
 void Scene::Impl::set_local(std::uint32_t at, const Affine& M_PN) {
-  PANTIN_EXPECTS(M_PN.affine().allFinite(), "local matrix of " + called(at) + " has an entry that is not finite");
+  PANTIN_EXPECTS(M_PN.affine().allFinite(),
+                 "local matrix of " + called(at) + " has an entry that is not finite");
   nodes.locals()[at] = Matrix34::from(M_PN);
   mark(at);
 }

@@ -1,10 +1,10 @@
 #pragma once
-// The hierarchy: named nodes, each with a local matrix against its parent and a world matrix derived from it. Nothing
-// else hangs in here except links; masses, shapes and meshes belong to others, who hold NodeIds.
+// The hierarchy: named nodes, each with a local matrix against its parent and a world matrix derived from it.
+// Nothing else hangs in here except links; masses, shapes and meshes belong to others, who hold NodeIds.
 //
-// Storage: dense arrays, parents before children. A freshly built or compacted scene is one depth-first run, in which
-// a subtree is a contiguous range; appended and moved subtrees are tail segments (each depth-first in itself) that
-// `update` sweeps in order and compacts past a threshold. No function recurses over the tree.
+// Storage: dense arrays, parents before children. A freshly built or compacted scene is one depth-first run,
+// in which a subtree is a contiguous range; appended and moved subtrees are tail segments (each depth-first
+// in itself) that `update` sweeps in order and compacts past a threshold. No function recurses over the tree.
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -35,8 +35,10 @@ struct IndexRange {
   std::size_t end{0};
 };
 
-/// Owns all nodes. One root exists from the start, has no parent, an empty name and no path. Const members may be
-/// called from several threads at once. Every NodeId argument must be alive, or the contract is broken.
+/// Owns all nodes. One root exists from the start, has no parent, an empty name and an empty path; its local
+/// matrix is its world matrix. Const members may be called from several threads at once. Every NodeId
+/// argument must be alive, or the contract is broken. Ids are of this scene alone: those of another cannot be
+/// told apart.
 class Scene {
  public:
   Scene();
@@ -45,51 +47,61 @@ class Scene {
   Scene& operator=(Scene&&) noexcept;
 
   [[nodiscard]] NodeId root() const noexcept;
-  [[nodiscard]] std::size_t size() const noexcept;             ///< nodes, the root included
-  [[nodiscard]] bool contains(NodeId id) const noexcept;       ///< false for null, foreign and removed ids
+  [[nodiscard]] std::size_t size() const noexcept;        ///< nodes, the root included
+  [[nodiscard]] bool contains(NodeId id) const noexcept;  ///< false for null and removed ids
 
   /// Adds a node as the last child of `parent`. `M_PN` must be finite.
   NodeId create(NodeId parent, std::string_view name, const Affine& M_PN = Affine::Identity());
-  /// Removes the node and all below it. Not the root.
+  /// Removes the node and all below it, with their links. Not the root.
   void remove(NodeId id);
   /// Hangs `child` with all below it under `parent`, as last child. A cycle breaks the contract; so does
   /// Keep::World under a singular parent (its message names both nodes).
   void set_parent(NodeId child, NodeId parent, Keep keep);
 
-  [[nodiscard]] NodeId parent(NodeId id) const;                ///< null for the root
-  [[nodiscard]] std::vector<NodeId> children(NodeId id) const; ///< in order
-  [[nodiscard]] std::vector<NodeId> subtree(NodeId id) const;  ///< itself first, parents before children
+  [[nodiscard]] NodeId parent(NodeId id) const;                   ///< null for the root
+  [[nodiscard]] std::vector<NodeId> children(NodeId id) const;    ///< in order
+  [[nodiscard]] std::vector<NodeId> subtree(NodeId id) const;     ///< itself first, parents before children
   [[nodiscard]] bool is_above(NodeId ancestor, NodeId id) const;  ///< true also for the node itself
 
   [[nodiscard]] const std::string& name(NodeId id) const;
   void rename(NodeId id, std::string_view name);
 
-  /// Names joined by '/' from the child of the root; '~1' stands for '/' and '~0' for '~' inside a name; siblings of
-  /// equal name, and empty names, get '[k]' (k-th of that name among its siblings, from 0). Empty for the root.
+  /// Names joined by '/' from the child of the root; '~1' stands for '/' and '~0' for '~' inside a name;
+  /// siblings of equal name, and empty names, get '[k]' (k-th of that name among its siblings, from 0). Where
+  /// a name itself ends in such an index, '~2' stands for its '[': a node called "x[1]" is "x~21]", while
+  /// "x[1]" is the second "x". Empty for the root.
   [[nodiscard]] std::string path(NodeId id) const;
-  /// The node of that path, as `path` gives it ('[0]' may be left out); null if there is none.
+  /// The node of that path, as `path` gives it ('[0]' may be left out); null if there is none; the root for
+  /// "".
   [[nodiscard]] NodeId find(std::string_view path) const;
 
-  [[nodiscard]] const Link* link(NodeId id) const;             ///< nullptr where there is none
-  void set_link(NodeId id, Link link);                         ///< also sets the local matrix from link.value
-  void clear_link(NodeId id);                                  ///< the local matrix stays
-  void set_link_value(NodeId id, const LinkValue& value);      ///< sets the local matrix; needs a link
+  [[nodiscard]] const Link* link(NodeId id) const;         ///< nullptr where there is none
+  void set_link(NodeId id, Link link);                     ///< also sets the local matrix from link.value
+  void clear_link(NodeId id);                              ///< the local matrix stays
+  void set_link_value(NodeId id, const LinkValue& value);  ///< sets the local matrix; needs a link
   /// Stores a measured value without touching the local matrix: for writers that own the matrix.
   void note_link_value(NodeId id, const LinkValue& value);
 
   [[nodiscard]] Affine local(NodeId id) const;
-  void set_local(NodeId id, const Affine& M_PN);               ///< finite
+  void set_local(NodeId id, const Affine& M_PN);  ///< finite
   void set_locals(std::span<const NodeLocal> locals);
-  /// M_WN, never stale: reads through changed ancestors without writing. O(1) if nothing above changed since the last
-  /// update, else O(depth).
+  /// M_WN, never stale: reads through changed ancestors without writing, with the bits that `update` would
+  /// give. O(1) if nothing changed before the node in `order()` since the last update, else O(depth).
   [[nodiscard]] Affine world(NodeId id) const;
 
-  /// Brings `worlds()` up to date; about a nanosecond when nothing changed.
+  /// Brings `worlds()` up to date; about a nanosecond when nothing changed. Puts the nodes into depth-first
+  /// order again once there are more holes than a quarter, or more tails than a 256th, of the positions (and
+  /// 32 of each).
   void update();
-  [[nodiscard]] std::span<const Matrix34> worlds() const noexcept;    ///< as of the last update, parents first
-  [[nodiscard]] std::span<const NodeId> order() const noexcept;       ///< whose matrix each entry of `worlds()` is
-  [[nodiscard]] std::size_t index_of(NodeId id) const;                ///< position in `order()` now
-  [[nodiscard]] std::span<const IndexRange> changed() const noexcept; ///< what the last update swept
+  /// World matrices as of the last update, parents first. Here and in `order()` an entry of a removed node
+  /// stays as a hole until the next re-ordering. Valid until the next create, remove, set_parent or update.
+  [[nodiscard]] std::span<const Matrix34> worlds() const noexcept;
+  /// Whose matrix each entry of `worlds()` is; null in a hole.
+  [[nodiscard]] std::span<const NodeId> order() const noexcept;
+  [[nodiscard]] std::size_t index_of(NodeId id) const;  ///< position in `order()` now
+  /// What the last update swept, ascending; everything if it, or an edit before it, put the nodes into
+  /// another order. Valid as long as `worlds()`.
+  [[nodiscard]] std::span<const IndexRange> changed() const noexcept;
 
  private:
   struct Impl;

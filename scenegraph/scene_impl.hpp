@@ -15,12 +15,14 @@ struct Scene::Impl {
 
   SceneStorage nodes{};
   DirtySet dirty{};
-  std::vector<std::string> names{std::string{}};          ///< by index of the id
-  std::unordered_map<std::uint32_t, Link> links{};        ///< by index of the id; few nodes have one
+  std::vector<std::string> names{std::string{}};    ///< by index of the id
+  std::unordered_map<std::uint32_t, Link> links{};  ///< by index of the id; few nodes have one
   std::vector<IndexRange> changed{};
-  std::size_t pending{0};                                 ///< edits since the last update; 0: nothing to do
-  bool reordered{false};                                  ///< compacted since the last update
-  std::vector<std::uint32_t> scratch{};                   ///< positions, reused by members that write
+  std::size_t pending{0};  ///< edits since the last update; 0: nothing to do
+  bool all_changed{
+      false};  ///< positions or worlds were touched between updates: the next one reports everything
+  std::size_t climbed{0};  ///< steps that edits climbed through dirty ancestors since the last sweep
+  std::vector<std::uint32_t> scratch{};  ///< positions, reused by members that write
 
   /// Position of a node; that it is alive is a contract.
   [[nodiscard]] std::uint32_t at(NodeId id) const;
@@ -29,13 +31,22 @@ struct Scene::Impl {
   [[nodiscard]] std::string path(std::uint32_t at) const;
   /// The path in quotes, or "the root": for messages.
   [[nodiscard]] std::string called(std::uint32_t at) const;
-  [[nodiscard]] Matrix34 world(std::uint32_t at) const;
+  /// How far up a node's world matrix is out of date.
+  struct Climb {
+    std::size_t steps{0};  ///< ancestors looked at, itself included
+    std::size_t stale{0};  ///< steps up to and including the topmost dirty one; 0 if the world is up to date
+  };
+  [[nodiscard]] Climb climb(std::uint32_t at) const;
+  /// M_WN of the node `at`, given its climb.
+  [[nodiscard]] Matrix34 read_through(std::uint32_t at, std::size_t stale) const;
 
   void mark(std::uint32_t at);
   void set_local(std::uint32_t at, const Affine& M_PN);
   void compact();
   /// Keeps memory and walks linear under endless creating and removing without updates.
   void compact_if_mostly_holes();
+  /// For edits that read worlds: reads through, but sweeps once the climbing would cost more than that.
+  [[nodiscard]] Matrix34 world_for_edit(std::uint32_t at);
   void sweep_dirty();
   void sweep_range(std::uint32_t begin, std::uint32_t end);
   [[nodiscard]] bool was_swept(std::uint32_t at) const;

@@ -2,17 +2,6 @@
 #include <pantin/scenegraph/scene_impl.hpp>
 
 namespace pantin {
-namespace {
-
-/// Contract of both ways to give a link a value.
-void expect_fits(const Link& link, const LinkValue& value, const std::string& node) {
-  Link probe = link;
-  probe.value = value;
-  const std::string problem = problem_with(probe);
-  PANTIN_EXPECTS(problem.empty(), "value for the link of " + node + ": " + problem);
-}
-
-}  // namespace
 
 const Link* Scene::link(NodeId id) const {
   static_cast<void>(impl_->at(id));
@@ -42,8 +31,10 @@ void Scene::set_link_value(NodeId id, const LinkValue& value) {
 void Scene::note_link_value(NodeId id, const LinkValue& value) {
   const std::uint32_t at = impl_->at(id);
   const auto found = impl_->links.find(id.index);
-  PANTIN_EXPECTS(found != impl_->links.end(), impl_->called(at) + " has no link to give a value to; set_link first");
-  expect_fits(found->second, value, impl_->called(at));
+  PANTIN_EXPECTS(found != impl_->links.end(),
+                 impl_->called(at) + " has no link to give a value to; set_link first");
+  const std::string problem = problem_with(found->second.kind, value);
+  PANTIN_EXPECTS(problem.empty(), "value for the link of " + impl_->called(at) + ": " + problem);
   found->second.value = value;
 }
 

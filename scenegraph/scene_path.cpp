@@ -1,6 +1,6 @@
-// Paths. A segment is the escaped name, then '[k]' where the name is empty or shared with a sibling. '~0', '~1' and '~2'
-// stand for '~', '/' and '['; the last only where a name ends in what would read as an index, so that a node called
-// "x[1]" (written "x~21]") is never taken for the second "x".
+// Paths. A segment is the escaped name, then '[k]' where the name is empty or shared with a sibling. '~0',
+// '~1' and '~2' stand for '~', '/' and '['; the last only where a name ends in what would read as an index,
+// so that a node called "x[1]" (written "x~21]") is never taken for the second "x".
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -14,7 +14,8 @@ namespace {
 std::size_t index_suffix(std::string_view text) {
   if (text.size() < 3 || text.back() != ']') return std::string_view::npos;
   const std::size_t open = text.find_last_not_of("0123456789", text.size() - 2);
-  if (open == std::string_view::npos || text[open] != '[' || open + 2 == text.size()) return std::string_view::npos;
+  if (open == std::string_view::npos || text[open] != '[' || open + 2 == text.size())
+    return std::string_view::npos;
   return open;
 }
 
@@ -23,14 +24,10 @@ std::string escaped(std::string_view name) {
   std::string out;
   out.reserve(name.size());
   for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == '~')
-      out += "~0";
-    else if (name[i] == '/')
-      out += "~1";
-    else if (i == open)
-      out += "~2";
-    else
-      out += name[i];
+    if (name[i] == '~') out += "~0";
+    else if (name[i] == '/') out += "~1";
+    else if (i == open) out += "~2";
+    else out += name[i];
   }
   return out;
 }
@@ -91,7 +88,9 @@ std::string Scene::Impl::path(std::uint32_t at) const {
   return out;
 }
 
-std::string Scene::Impl::called(std::uint32_t at) const { return at == 0 ? "the root" : "node '" + path(at) + "'"; }
+std::string Scene::Impl::called(std::uint32_t at) const {
+  return at == 0 ? "the root" : "node '" + path(at) + "'";
+}
 
 std::string Scene::path(NodeId id) const { return impl_->path(impl_->at(id)); }
 

@@ -48,11 +48,12 @@ std::vector<std::uint32_t> SceneStorage::compact() {
   tail_lists_.clear();
   holes_ = 0;
   last_open_ = kNone;
-  parent_.reserve(from.size());
-  size_.reserve(from.size());
-  local_.reserve(from.size());
-  world_.reserve(from.size());
-  order_.reserve(from.size());
+  const std::size_t room = from.size() + from.size() / kNodesPerSpare;
+  parent_.reserve(room);
+  size_.reserve(room);
+  local_.reserve(room);
+  world_.reserve(room);
+  order_.reserve(room);
   slots_.shrink_to_fit();
   for (const std::uint32_t at : from) {
     const std::uint32_t above = at == 0 ? kNone : position(order[parent[at]]);
@@ -109,7 +110,8 @@ bool SceneStorage::is_above(std::uint32_t ancestor, std::uint32_t at) const noex
   return false;
 }
 
-std::uint32_t SceneStorage::push(std::uint32_t parent, NodeId id, const Matrix34& local, const Matrix34& world) {
+std::uint32_t SceneStorage::push(std::uint32_t parent, NodeId id, const Matrix34& local,
+                                 const Matrix34& world) {
   const std::uint32_t at = end();
   PANTIN_EXPECTS(at < kNone - 1, "a scene holds at most 2^32 - 2 nodes; split it");
   const bool extends_run = parent != kNone && size_[parent] == kOpen;
@@ -136,10 +138,8 @@ void SceneStorage::hang_tail(std::uint32_t top, std::uint32_t parent) {
   const std::uint32_t index = static_cast<std::uint32_t>(tails_.size());
   tails_.push_back({top, kNone});
   TailList& list = tail_lists_[parent];
-  if (list.last == kNone)
-    list.first = index;
-  else
-    tails_[list.last].next = index;
+  if (list.last == kNone) list.first = index;
+  else tails_[list.last].next = index;
   list.last = index;
 }
 
@@ -163,8 +163,9 @@ std::uint32_t SceneStorage::first_tail(std::uint32_t at) const {
 }
 
 std::uint32_t SceneStorage::run_top(std::uint32_t at) const noexcept {
-  const auto after = std::upper_bound(tails_.begin(), tails_.end(), at,
-                                      [](std::uint32_t position, const Tail& tail) { return position < tail.top; });
+  const auto after =
+      std::upper_bound(tails_.begin(), tails_.end(), at,
+                       [](std::uint32_t position, const Tail& tail) { return position < tail.top; });
   return after == tails_.begin() ? 0 : std::prev(after)->top;
 }
 

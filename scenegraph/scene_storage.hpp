@@ -1,17 +1,17 @@
 #pragma once
 // Private to scenegraph. The dense arrays behind a Scene, their tables of ids, and the shape of the tree.
 //
-// A position is an index into the arrays. Parents always have lower positions than their children. The arrays are a
-// sequence of runs; each run is in depth-first order, so a subtree is the contiguous range [position, position +
-// extent) of its run. The first run holds the root; every later one, a tail, holds one subtree whose parent lies in
-// an earlier run. New nodes extend the last run if their parent is on its rightmost path (so a scene built depth-first
-// is one run), else they open a tail; a moved subtree is copied to the end, together with the tails below it.
-// Positions that a removed or moved subtree leaves are holes: their id is null, and the size of the first one says how
-// many to skip. The children of a node are those in its own run, then the tails hung under it, which is also their
-// order, because children are only ever added as last ones.
+// A position is an index into the arrays. Parents always have lower positions than their children. The arrays
+// are a sequence of runs; each run is in depth-first order, so a subtree is the contiguous range [position,
+// position + extent) of its run. The first run holds the root; every later one, a tail, holds one subtree
+// whose parent lies in an earlier run. New nodes extend the last run if their parent is on its rightmost path
+// (so a scene built depth-first is one run), else they open a tail; a moved subtree is copied to the end,
+// together with the tails below it. Positions that a removed or moved subtree leaves are holes: their id is
+// null, and the size of the first one says how many to skip. The children of a node are those in its own run,
+// then the tails hung under it, which is also their order, because children are only ever added as last ones.
 //
-// Nodes on the rightmost path of the last run are open: their size is stored as 0 and reaches to the end. So adding a
-// node need not touch all its ancestors; a node is closed once, when the path leaves it.
+// Nodes on the rightmost path of the last run are open: their size is stored as 0 and reaches to the end. So
+// adding a node need not touch all its ancestors; a node is closed once, when the path leaves it.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,15 +33,16 @@ class SceneStorage {
   NodeId append(std::uint32_t parent, const Matrix34& local);
   /// Turns `positions`, which `collect(top)` gave, into holes and frees their ids.
   void remove(std::uint32_t top, std::span<const std::uint32_t> positions);
-  /// Copies `positions`, which `collect(top)` gave, to the end as last child of `parent`, leaving holes; where `top` is
-  /// now. `parent` is not among them.
+  /// Copies `positions`, which `collect(top)` gave, to the end as last child of `parent`, leaving holes;
+  /// where `top` is now. `parent` is not among them.
   std::uint32_t relocate(std::uint32_t top, std::span<const std::uint32_t> positions, std::uint32_t parent);
-  /// Rebuilds all arrays as one run without holes, of exact capacity. Entry i of the result is where the node now at
-  /// i was before.
+  /// Rebuilds all arrays as one run without holes, with little room to spare. Entry i of the result is where
+  /// the node now at i was before.
   std::vector<std::uint32_t> compact();
 
   [[nodiscard]] bool contains(NodeId id) const noexcept {
-    return (id.generation & 1) != 0 && id.index < slots_.size() && slots_[id.index].generation == id.generation;
+    return (id.generation & 1) != 0 && id.index < slots_.size() &&
+           slots_[id.index].generation == id.generation;
   }
   /// Position of a node that is alive.
   [[nodiscard]] std::uint32_t position(NodeId id) const noexcept { return slots_[id.index].position; }
@@ -51,7 +52,9 @@ class SceneStorage {
   [[nodiscard]] std::size_t alive() const noexcept { return parent_.size() - holes_; }
   [[nodiscard]] std::size_t bytes() const noexcept;  ///< held by arrays and tables, tails left out
 
-  [[nodiscard]] std::uint32_t parent(std::uint32_t at) const noexcept { return parent_[at]; }  ///< kNone for the root
+  [[nodiscard]] std::uint32_t parent(std::uint32_t at) const noexcept {
+    return parent_[at];
+  }  ///< kNone for the root
   [[nodiscard]] std::uint32_t extent(std::uint32_t at) const noexcept {
     return size_[at] == kOpen ? end() - at : size_[at];
   }
@@ -84,9 +87,10 @@ class SceneStorage {
 
  private:
   static constexpr std::uint32_t kOpen = 0;
+  static constexpr std::size_t kNodesPerSpare = 64;  ///< compacting leaves room for one more node for so many
 
-  /// Entry of the id table. The generation is odd while the slot is in use; `position` of a free slot is the next free
-  /// one.
+  /// Entry of the id table. The generation is odd while the slot is in use; `position` of a free slot is the
+  /// next free one.
   struct Slot {
     std::uint32_t position{kNone};
     std::uint32_t generation{0};

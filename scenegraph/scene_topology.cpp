@@ -1,7 +1,7 @@
 // Moving subtrees and walking over them. Keeping the world matrix of a moved node solves
 //   M_WQ * M_QN = M_WN   for M_QN,   Q the new parent,
-// column by column with a fully pivoted LU of M_WQ whose columns were scaled to length 1 first, so that neither shear nor
-// very different scales along the axes cost accuracy.
+// column by column with a fully pivoted LU of M_WQ whose columns were scaled to length 1 first, so that
+// neither shear nor very different scales along the axes cost accuracy.
 #include <Eigen/LU>
 #include <optional>
 
@@ -38,11 +38,12 @@ void Scene::set_parent(NodeId child, NodeId parent, Keep keep) {
                  "cycle: " + scene.called(above) + " is " + scene.called(top) +
                      " or below it and cannot become its parent; move it out of that subtree first");
   if (keep == Keep::World) {
-    const std::optional<Affine> M_PN = solve_local(scene.world(above).affine(), scene.world(top).affine());
-    PANTIN_EXPECTS(M_PN.has_value(), "the world matrix of " + scene.called(above) + " is singular, so " +
-                                         scene.called(top) +
-                                         " cannot keep its world matrix under it; give the parent a scale that is "
-                                         "not zero or keep the local matrix");
+    const std::optional<Affine> M_PN =
+        solve_local(scene.world_for_edit(above).affine(), scene.world_for_edit(top).affine());
+    PANTIN_EXPECTS(M_PN.has_value(),
+                   "the world matrix of " + scene.called(above) + " is singular, so " + scene.called(top) +
+                       " cannot keep its world matrix under it; give the parent a scale that is "
+                       "not zero or keep the local matrix");
     scene.nodes.locals()[top] = Matrix34::from(*M_PN);
   }
   std::vector<std::uint32_t>& positions = scene.scratch;

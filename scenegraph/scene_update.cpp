@@ -1,7 +1,7 @@
-// Bringing world matrices up to date. A dirty position stands for its whole subtree: its range within its run, and the
-// tails hung below that range. One pass goes up the positions, taking whichever comes first, the next dirty position or
-// the next tail whose parent was swept in this pass; as parents have lower positions, each matrix is computed once and
-// after its parent's.
+// Bringing world matrices up to date. A dirty position stands for its whole subtree: its range within its
+// run, and the tails hung below that range. One pass goes up the positions, taking whichever comes first, the
+// next dirty position or the next tail whose parent was swept in this pass; as parents have lower positions,
+// each matrix is computed once and after its parent's.
 #include <algorithm>
 #include <array>
 
@@ -11,12 +11,14 @@
 namespace pantin {
 namespace {
 
-// Compaction costs a few ten nanoseconds a node. With these it happens so seldom that it costs about as much, over
-// time, as what the holes and tails cost that it takes away: a hole is swept over, a tail is looked at by each update.
-constexpr std::size_t kSlack = 32;             ///< holes and tails that any scene may have
-constexpr std::size_t kNodesPerHole = 4;       ///< update compacts above one hole for so many positions
-constexpr std::size_t kNodesPerTail = 256;     ///< update compacts above one tail for so many positions
-constexpr std::size_t kSlackWhileEdited = 1024;  ///< edits compact above so many holes plus half of all positions
+// Compaction costs a few ten nanoseconds a node. With these it happens so seldom that it costs about as much,
+// over time, as what the holes and tails cost that it takes away: a hole is swept over, a tail is looked at
+// by each update.
+constexpr std::size_t kSlack = 32;          ///< holes and tails that any scene may have
+constexpr std::size_t kNodesPerHole = 4;    ///< update compacts above one hole for so many positions
+constexpr std::size_t kNodesPerTail = 256;  ///< update compacts above one tail for so many positions
+constexpr std::size_t kSlackWhileEdited =
+    1024;  ///< edits compact above so many holes plus half of all positions
 
 }  // namespace
 
@@ -27,7 +29,7 @@ void Scene::Impl::compact() {
   for (std::uint32_t i = 0; i < from.size(); ++i)
     if (dirty.test(from[i])) moved.mark(i);
   dirty = std::move(moved);
-  reordered = true;
+  all_changed = true;
 }
 
 void Scene::Impl::compact_if_mostly_holes() {
@@ -43,8 +45,8 @@ void Scene::update() {
       scene.nodes.tails() > kSlack + positions / kNodesPerTail)
     scene.compact();
   scene.sweep_dirty();
-  if (scene.reordered) scene.changed.assign(1, {0, scene.nodes.end()});
-  scene.reordered = false;
+  if (scene.all_changed) scene.changed.assign(1, {0, scene.nodes.end()});
+  scene.all_changed = false;
   scene.pending = 0;
 }
 
@@ -61,14 +63,13 @@ void Scene::Impl::sweep_dirty() {
     const std::uint32_t end = begin + nodes.extent(begin);
     dirty.clean(begin, end);
     sweep_range(begin, end);
-    if (!changed.empty() && changed.back().end == begin)
-      changed.back().end = end;
-    else
-      changed.push_back({begin, end});
+    if (!changed.empty() && changed.back().end == begin) changed.back().end = end;
+    else changed.push_back({begin, end});
     from = end;
     if (from == nodes.end()) break;
   }
   dirty.forget_lowest();
+  climbed = 0;
 }
 
 void Scene::Impl::sweep_range(std::uint32_t begin, std::uint32_t end) {
@@ -77,20 +78,23 @@ void Scene::Impl::sweep_range(std::uint32_t begin, std::uint32_t end) {
 }
 
 bool Scene::Impl::was_swept(std::uint32_t at) const {
-  const auto after = std::upper_bound(changed.begin(), changed.end(), at,
-                                      [](std::uint32_t position, const IndexRange& r) { return position < r.begin; });
+  const auto after =
+      std::upper_bound(changed.begin(), changed.end(), at,
+                       [](std::uint32_t position, const IndexRange& r) { return position < r.begin; });
   return after != changed.begin() && at < std::prev(after)->end;
 }
 
-Matrix34 Scene::Impl::world(std::uint32_t at) const {
-  const std::vector<Matrix34>& worlds = nodes.worlds();
-  if (dirty.lowest() > at) return worlds[at];
-  std::size_t depth = 0;  // steps from `at` up to and including the topmost dirty ancestor
-  std::size_t stale = 0;
-  for (std::uint32_t above = at; above != kNone && above >= dirty.lowest(); above = nodes.parent(above)) {
-    ++depth;
-    if (dirty.test(above)) stale = depth;
+Scene::Impl::Climb Scene::Impl::climb(std::uint32_t at) const {
+  Climb climb;
+  for (; at != kNone && at >= dirty.lowest(); at = nodes.parent(at)) {
+    ++climb.steps;
+    if (dirty.test(at)) climb.stale = climb.steps;
   }
+  return climb;
+}
+
+Matrix34 Scene::Impl::read_through(std::uint32_t at, std::size_t stale) const {
+  const std::vector<Matrix34>& worlds = nodes.worlds();
   if (stale == 0) return worlds[at];
   // Multiplied from the top down as `sweep` does, so the bits are those that the next update gives.
   std::array<std::uint32_t, 64> few{};
@@ -104,7 +108,24 @@ Matrix34 Scene::Impl::world(std::uint32_t at) const {
   return M;
 }
 
-Affine Scene::world(NodeId id) const { return impl_->world(impl_->at(id)).affine(); }
+Matrix34 Scene::Impl::world_for_edit(std::uint32_t at) {
+  Climb up = climb(at);
+  climbed += up.steps;
+  if (climbed > nodes.end()) {
+    changed.clear();
+    sweep_dirty();
+    changed.clear();
+    all_changed = true;
+    up.stale = 0;
+  }
+  return read_through(at, up.stale);
+}
+
+Affine Scene::world(NodeId id) const {
+  const std::uint32_t at = impl_->at(id);
+  return impl_->read_through(at, impl_->climb(at).stale).affine();
+}
+
 std::span<const Matrix34> Scene::worlds() const noexcept { return impl_->nodes.worlds(); }
 std::span<const NodeId> Scene::order() const noexcept { return impl_->nodes.order(); }
 std::size_t Scene::index_of(NodeId id) const { return impl_->at(id); }

@@ -1,6 +1,7 @@
-// c = a * b for affine 3x4 matrices, row by row: c_i = (a_i0 b_0 + a_i1 b_1) + a_i2 b_2 + (0, 0, 0, a_i3), where b_k are
-// the rows of b. Both versions do the same operations in the same order, so they give the same bits (nothing is
-// contracted: -ffp-contract=off). Written by hand because at -O2 the compiler does not vectorise the plain loop.
+// c = a * b for affine 3x4 matrices, row by row: c_i = (a_i0 b_0 + a_i1 b_1) + a_i2 b_2 + (0, 0, 0, a_i3),
+// where b_k are the rows of b. Both versions do the same operations in the same order, so they give the same
+// bits (nothing is contracted: -ffp-contract=off). Written by hand because at -O2 the compiler does not
+// vectorise the plain loop.
 #include <pantin/scenegraph/sweep.hpp>
 
 #if defined(__SSE2__)
@@ -19,8 +20,10 @@ inline void multiply_rows(const double* a, const double* b, double* c) noexcept 
   for (int row = 0; row < 12; row += 4) {
     const __m128d a0 = _mm_set1_pd(a[row]), a1 = _mm_set1_pd(a[row + 1]), a2 = _mm_set1_pd(a[row + 2]);
     const __m128d a3 = _mm_set_pd(a[row + 3], 0.0);
-    const __m128d left = _mm_add_pd(_mm_add_pd(_mm_mul_pd(a0, b00), _mm_mul_pd(a1, b10)), _mm_mul_pd(a2, b20));
-    const __m128d right = _mm_add_pd(_mm_add_pd(_mm_mul_pd(a0, b01), _mm_mul_pd(a1, b11)), _mm_mul_pd(a2, b21));
+    const __m128d left =
+        _mm_add_pd(_mm_add_pd(_mm_mul_pd(a0, b00), _mm_mul_pd(a1, b10)), _mm_mul_pd(a2, b20));
+    const __m128d right =
+        _mm_add_pd(_mm_add_pd(_mm_mul_pd(a0, b01), _mm_mul_pd(a1, b11)), _mm_mul_pd(a2, b21));
     _mm_storeu_pd(c + row, left);
     _mm_storeu_pd(c + row + 2, _mm_add_pd(right, a3));
   }
