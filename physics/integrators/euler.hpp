@@ -1,6 +1,6 @@
 #pragma once
-// Explicit Euler, first order: q and v both move along the derivative at the start of the step. It feeds energy into
-// everything that oscillates; here for comparison.
+// Explicit Euler, first order: q and v both move along the derivative at the start of the step. It feeds
+// energy into everything that oscillates; here for comparison.
 #include <memory>
 
 #include <pantin/physics/integrators/integrator.hpp>

@@ -16,8 +16,8 @@ struct Part {
 
   /// After k1: sum = k, stage = y + s k.
   void first(double s) const {
-    const double* __restrict from = y.data(), * __restrict slope = k.data();
-    double* __restrict total = sum.data(), * __restrict next = stage.data();
+    const double *from = y.data(), *slope = k.data();
+    double *total = sum.data(), *next = stage.data();
     for (std::size_t i = 0, n = y.size(); i < n; ++i) {
       total[i] = slope[i];
       next[i] = from[i] + s * slope[i];
@@ -25,8 +25,8 @@ struct Part {
   }
   /// After k2 and k3: sum += 2 k, stage = y + s k.
   void middle(double s) const {
-    const double* __restrict from = y.data(), * __restrict slope = k.data();
-    double* __restrict total = sum.data(), * __restrict next = stage.data();
+    const double *from = y.data(), *slope = k.data();
+    double *total = sum.data(), *next = stage.data();
     for (std::size_t i = 0, n = y.size(); i < n; ++i) {
       total[i] += 2 * slope[i];
       next[i] = from[i] + s * slope[i];
@@ -34,8 +34,8 @@ struct Part {
   }
   /// After k4: y += s (sum + k).
   void last(double s) const {
-    const double* __restrict slope = k.data(), * __restrict total = sum.data();
-    double* __restrict to = y.data();
+    const double *slope = k.data(), *total = sum.data();
+    double* to = y.data();
     for (std::size_t i = 0, n = y.size(); i < n; ++i) to[i] += s * (total[i] + slope[i]);
   }
 };

@@ -1,6 +1,6 @@
 #pragma once
-// The classical Runge-Kutta method of fourth order. Attitudes are taken as coordinates of R^4 within the step, so that
-// they are of fourth order too.
+// The classical Runge-Kutta method of fourth order. Attitudes are taken as coordinates of R^4 within the
+// step, so that they are of fourth order too.
 #include <memory>
 
 #include <pantin/physics/integrators/integrator.hpp>

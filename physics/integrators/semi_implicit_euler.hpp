@@ -1,6 +1,6 @@
 #pragma once
-// Semi-implicit Euler, first order: velocities first, then coordinates with the new velocities. Symplectic where
-// v' = a(q) and q' = v: energy oscillates and does not drift.
+// Semi-implicit Euler, first order: velocities first, then coordinates with the new velocities. Symplectic
+// where v' = a(q) and q' = v: energy oscillates and does not drift.
 #include <memory>
 
 #include <pantin/physics/integrators/integrator.hpp>

@@ -1,6 +1,6 @@
 #pragma once
-// What all integrators need: the check of a step's arguments, work space that only grows, and fused loops over plain
-// arrays (independent iterations, so that compilers turn them into vector instructions).
+// What all integrators need: the check of a step's arguments, work space that only grows, and fused loops
+// over plain arrays (independent iterations, so that compilers turn them into vector instructions).
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -34,16 +34,16 @@ class WorkSpace {
 
 /// x += s d
 inline void add_scaled(std::span<double> x, double s, std::span<const double> d) {
-  double* __restrict to = x.data();
-  const double* __restrict from = d.data();
+  double* to = x.data();
+  const double* from = d.data();
   for (std::size_t i = 0, n = x.size(); i < n; ++i) to[i] += s * from[i];
 }
 
 /// out = x + s d
 inline void set_sum(std::span<double> out, std::span<const double> x, double s, std::span<const double> d) {
-  double* __restrict to = out.data();
-  const double* __restrict base = x.data();
-  const double* __restrict from = d.data();
+  double* to = out.data();
+  const double* base = x.data();
+  const double* from = d.data();
   for (std::size_t i = 0, n = out.size(); i < n; ++i) to[i] = base[i] + s * from[i];
 }
 

@@ -17,9 +17,9 @@ namespace {
 
 /// v_half = v + h/2 a and v = v + h a in one pass.
 void kick_and_predict(std::span<double> v, double h, std::span<const double> a, std::span<double> v_half) {
-  double* __restrict full = v.data();
-  double* __restrict half = v_half.data();
-  const double* __restrict from = a.data();
+  double* full = v.data();
+  double* half = v_half.data();
+  const double* from = a.data();
   const double half_step = 0.5 * h;
   for (std::size_t i = 0, n = v.size(); i < n; ++i) {
     half[i] = full[i] + half_step * from[i];

@@ -1,6 +1,7 @@
 #pragma once
-// Velocity Verlet, second order, as a one-step method: half kick, drift through the middle, half kick. Symplectic and
-// time-reversible where v' = a(q) and q' = v; second order also for attitudes and for forces that look at velocities.
+// Velocity Verlet, second order, as a one-step method: half kick, drift through the middle, half kick.
+// Symplectic and time-reversible where v' = a(q) and q' = v; second order also for attitudes and for forces
+// that look at velocities.
 #include <memory>
 
 #include <pantin/physics/integrators/integrator.hpp>
