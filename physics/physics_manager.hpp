@@ -45,8 +45,8 @@ class PhysicsManager {
   void make_simulated(BodyId id);
   void make_animated(BodyId id, std::unique_ptr<Driver> driver);  ///< X_WB(t) of the body origin
   void make_static(BodyId id);
-  void set_mass_properties(BodyId id,
-                           const MassProperties& mass);  ///< keeps the origin's pose and both velocities
+  /// Keeps the origin's pose and velocity, and the angular velocity.
+  void set_mass_properties(BodyId id, const MassProperties& mass, InertiaCheck check = InertiaCheck::Physical);
 
   /// Teleports: the previous pose becomes the new one. What hangs on the body through joints moves along. A
   /// pose that the body's own joint does not allow is brought back to the joint at the next step.
