@@ -65,7 +65,7 @@ void Report::count_in(const std::string& kind, std::size_t count, Diagnostic dia
     findings_[found->second].count += count;
     return;
   }
-  if (kinds_.size() == kToldKinds && kind != kOtherKinds)
+  if (kinds_.size() >= kToldKinds && kind != kOtherKinds)
     return count_in(kOtherKinds, count,
                     {Severity::Warning, file_, "file", kOtherKinds, "mend the ones told first"});
   kinds_.emplace(kind, findings_.size());
