@@ -94,10 +94,10 @@ void add_run_command(CLI::App& program, Command& chosen) {
   add_what(*app, *options);
   add_time(*app, *options);
   add_world(*app, *options);
-  add_checked(
-      *app, "--out", complaint_about_trajectory_file,
-      [options](const std::string& text) { options->out = text; }, "Write the trajectory to this file")
-      ->type_name("FILE.csv|.json");
+  app->add_option("--out", options->out, "Write the trajectory to this file (repeatable)")
+      ->type_name("FILE.csv|.json")
+      ->check(complaint_about_trajectory_file)
+      ->allow_extra_args(false);
   add_common_options(*app, options->common);
   app->callback([options, &chosen] {
     for (const ToggleArgument& toggle : options->toggles)

@@ -14,21 +14,22 @@
 namespace pantin::cli {
 namespace {
 
-/// Where the trajectory goes: the file of --out, standard output for --json, or nowhere.
+/// Where the trajectory goes: the files of --out, standard output for --json, or nowhere.
 class Outputs {
  public:
-  /// Opens the file; an error in the ledger where that fails.
+  /// Opens the files; an error in the ledger where that fails.
   Outputs(const RunOptions& options, Ledger& ledger) {
-    if (!options.out.empty()) {
-      Loaded<OutputFile> opened = OutputFile::open(options.out);
+    for (const std::string& name : options.out) {
+      Loaded<OutputFile> opened = OutputFile::open(name);
       ledger.add(opened.notes);
-      if (!opened.value) return;
-      file_.emplace(std::move(*opened.value));
-      if (std::filesystem::path{options.out}.extension() == ".csv")
-        writers_.push_back(std::make_unique<TrajectoryCsv>(file_->stream()));
-      else writers_.push_back(std::make_unique<TrajectoryJson>(file_->stream()));
+      if (!opened.value) continue;
+      files_.push_back(std::move(*opened.value));
+      if (std::filesystem::path{name}.extension() == ".csv")
+        writers_.push_back(std::make_unique<TrajectoryCsv>(files_.back().stream()));
+      else writers_.push_back(std::make_unique<TrajectoryJson>(files_.back().stream()));
     }
-    if (options.common.json) writers_.push_back(std::make_unique<TrajectoryJson>(std::cout));
+    if (options.common.json && !ledger.has_error())
+      writers_.push_back(std::make_unique<TrajectoryJson>(std::cout));
   }
 
   [[nodiscard]] std::vector<TrajectoryWriter*> writers() const {
@@ -37,16 +38,20 @@ class Outputs {
     return all;
   }
 
-  /// Ends the documents and puts the file in place; false where that failed, with an error in the ledger.
+  /// Ends the documents and puts the files in place; false where that failed, with errors in the ledger.
   bool finish(const RunSummary& summary, Ledger& ledger) {
     for (const std::unique_ptr<TrajectoryWriter>& writer : writers_) writer->finish(summary, ledger.notes());
-    const std::optional<Diagnostic> problem = file_ ? file_->commit() : std::nullopt;
-    if (problem) ledger.add(*problem);
-    return !problem;
+    bool all_well = true;
+    for (OutputFile& file : files_) {
+      const std::optional<Diagnostic> problem = file.commit();
+      if (problem) ledger.add(*problem);
+      all_well = all_well && !problem;
+    }
+    return all_well;
   }
 
  private:
-  std::optional<OutputFile> file_{};
+  std::vector<OutputFile> files_{};
   std::vector<std::unique_ptr<TrajectoryWriter>> writers_{};
 };
 
@@ -86,14 +91,16 @@ ExitCode run(const RunOptions& options) {
               << short_seconds(options.step) << " with " << options.integrator << std::endl;
   }
   RunOutcome outcome = simulate_aloud(options, world, toggles, outputs, ledger);
-  if (!outputs.finish(outcome.summary, ledger) && outcome.code == ExitCode::Fine)
-    outcome.code = ExitCode::BadInput;
+  const bool is_written = outputs.finish(outcome.summary, ledger);
+  if (!is_written && outcome.code == ExitCode::Fine) outcome.code = ExitCode::BadInput;
   if (for_people) {
     print_remarks(std::cout, std::span{ledger.notes()}.subspan(said));
     print_summary(std::cout, outcome.summary);
-    if (!options.out.empty() && !(outcome.code == ExitCode::BadInput && outcome.summary.completed))
-      std::cout << (outcome.summary.completed ? "wrote " : "wrote what was reached to ")
-                << printable(options.out) << std::endl;
+    if (is_written)
+      for (const std::string& name : options.out)
+        std::cout << (outcome.summary.completed ? "wrote " : "wrote what was reached to ") << printable(name)
+                  << '\n';
+    std::cout.flush();
   }
   print_errors(ledger.notes());
   return outcome.code;

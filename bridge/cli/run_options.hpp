@@ -25,7 +25,7 @@ struct RunOptions {
   std::optional<UpAxis> up{};        ///< nothing = the first model's
   std::optional<Vector3> gravity{};  ///< [m/s^2]; nothing = 9.81 against the up axis
   Base base{Base::Fixed};
-  std::string out{};  ///< .csv or .json; empty = no file
+  std::vector<std::string> out{};  ///< files, each .csv or .json
 };
 
 /// Loads, prepares, simulates and reports.

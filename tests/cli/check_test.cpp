@@ -1,0 +1,181 @@
+// `pantin check`, and what all commands have in common: exit codes, usage, strictness, broken output.
+#include <unistd.h>
+
+#include "models.hpp"
+#include "program.hpp"
+
+namespace pantin::test {
+namespace {
+
+TEST(Check, GivesOneEntryAFile) {
+  // One file is good, one is broken, one is not there: the bad ones do not keep the good one from being
+  // checked.
+  const Folder folder;
+  const std::string good = folder.write("good.urdf", kPendulumUrdf);
+  const std::string broken = folder.write("broken.urdf", kBrokenUrdf);
+  const std::string missing = folder.path("missing.urdf");
+  const Ran ran = pantin({"check", "--json", broken, good, missing});
+  EXPECT_EQ(ran.code, 1);
+  const Json checked = ran.json();
+  ASSERT_EQ(checked.size(), 3u);
+  EXPECT_EQ(checked[0]["file"], broken);
+  EXPECT_EQ(checked[0]["ok"], false);
+  EXPECT_EQ(checked[1]["file"], good);
+  EXPECT_EQ(checked[1]["ok"], true);
+  EXPECT_EQ(checked[2]["ok"], false);
+  const Json& finding = checked[0]["ledger"][0];
+  EXPECT_EQ(finding["severity"], "error");
+  EXPECT_NE(finding["place"].get<std::string>().find("broken.urdf:3"), std::string::npos) << finding;
+  for (const char* key : {"severity", "place", "subject", "problem", "remedy"})
+    EXPECT_TRUE(finding.contains(key)) << key;
+}
+
+TEST(Check, PutsErrorsOnStandardError) {
+  // Whoever reads standard output gets results only.
+  const Folder folder;
+  const Ran ran = pantin({"check", folder.write("broken.urdf", kBrokenUrdf)});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_TRUE(ran.says("broken.urdf:3: error: ")) << ran.err;
+  EXPECT_NE(ran.out.find("broken.urdf: failed, 1 error"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.out.find("palm"), std::string::npos) << ran.out;
+}
+
+TEST(Check, IsFineWithGoodFiles) {
+  // A file without any finding is one line.
+  const Folder folder;
+  const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
+  const Ran ran = pantin({"check", file});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.out, file + ": ok\n");
+  EXPECT_EQ(ran.err, "");
+}
+
+TEST(Check, TreatsWarningsAsErrorsWhenStrict) {
+  // A mass of zero is doubtful, not wrong: fine without --strict, refused with it.
+  const Folder folder;
+  const std::string file = folder.write("light.urdf", kMasslessUrdf);
+  const Ran lenient = pantin({"check", "--json", file});
+  EXPECT_EQ(lenient.code, 0);
+  EXPECT_EQ(lenient.json()[0]["ok"], true);
+  EXPECT_NE(lenient.out.find("\"warning\""), std::string::npos) << lenient.out;
+  const Ran strict = pantin({"check", "--json", "--strict", file});
+  EXPECT_EQ(strict.code, 1);
+  EXPECT_EQ(strict.json()[0]["ok"], false);
+  EXPECT_EQ(strict.out.find("\"warning\""), std::string::npos) << strict.out;
+  EXPECT_EQ(pantin({"info", "--strict", file}).code, 1);
+  EXPECT_EQ(pantin({"run", "--strict", file}).code, 1);
+}
+
+TEST(Check, SaysWhichParserIsNotShielded) {
+  // OBJ is read by a foreign parser inside the process, URDF is not.
+  const Folder folder;
+  const std::string mesh = folder.write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Ran ran = pantin({"check", "--json", mesh, folder.write("pendulum.urdf", kPendulumUrdf)});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Json checked = ran.json();
+  EXPECT_NE(checked[0]["ledger"].dump().find("is not shielded"), std::string::npos) << checked;
+  EXPECT_EQ(checked[1]["ledger"].dump().find("is not shielded"), std::string::npos) << checked;
+}
+
+TEST(Usage, AnswersHelpAndVersion) {
+  // Answers go to standard output and are no errors.
+  const Ran version = pantin({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_TRUE(version.out.starts_with("pantin ")) << version.out;
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"info", "--help"}, {"check", "--help"}, {"run", "--help"}}) {
+    const Ran help = pantin(arguments);
+    EXPECT_EQ(help.code, 0);
+    EXPECT_NE(help.out.find("--help"), std::string::npos);
+    EXPECT_EQ(help.err, "");
+  }
+}
+
+TEST(Usage, HelpNamesEveryOptionOfRun) {
+  // The options that are promised; a forgotten one would not be found here.
+  const std::string help = pantin({"run", "--help"}).out;
+  for (const char* option :
+       {"--simulate", "--animate", "--toggle", "--duration", "--step", "--integrator", "--up", "--gravity",
+        "--fixed-base", "--floating-base", "--joint", "--every", "--out", "--json", "--strict"})
+    EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
+struct Misuse {
+  std::vector<std::string> arguments{};
+  std::string says{};
+};
+
+TEST(Usage, RefusesWhatMakesNoSense) {
+  // The command line itself is wrong: exit 2 before any file is opened, so the model need not exist.
+  const std::vector<Misuse> misuses{
+      {{}, "subcommand"},
+      {{"fly"}, "fly"},
+      {{"info"}, "MODEL"},
+      {{"info", "m.urdf", "--fast"}, "--fast"},
+      {{"info", "m.urdf", "--joint", "hinge"}, "'hinge' is not NAME=VALUE"},
+      {{"info", "m.urdf", "--joint", "hinge=much"}, "'hinge=much' is not NAME=VALUE"},
+      {{"info", "m.urdf", "--joint", "=1"}, "'=1' is not NAME=VALUE"},
+      {{"info", "m.urdf", "--time", "1"}, "--clip"},
+      {{"info", "m.urdf", "--clip", "go", "--time", "soon"}, "'soon' is not a finite number"},
+      {{"info", "m.urdf", "--clip", "go", "--time", "nan"}, "'nan' is not a finite number"},
+      {{"run", "m.urdf", "--duration", "0"}, "'0' is not a number greater than 0"},
+      {{"run", "m.urdf", "--duration", "inf"}, "'inf' is not a number greater than 0"},
+      {{"run", "m.urdf", "--step", "-1"}, "'-1' is not a number greater than 0"},
+      {{"run", "m.urdf", "--step", "1/0"}, "'1/0' is not a number greater than 0"},
+      {{"run", "m.urdf", "--every", "x"}, "'x' is not a number greater than 0"},
+      {{"run", "m.urdf", "--integrator", "magic"}, "magic not in {euler,"},
+      {{"run", "m.urdf", "--up", "W"}, "'W' is not one of X, Y, Z"},
+      {{"run", "m.urdf", "--gravity", "0,0"}, "'0,0' is not three numbers X,Y,Z"},
+      {{"run", "m.urdf", "--fixed-base", "--floating-base"}, "excludes"},
+      {{"run", "m.urdf", "--toggle", "1:a"}, "'1:a' is not T:PATH=simulated or T:PATH=animated"},
+      {{"run", "m.urdf", "--toggle", "1:a=static"}, "'1:a=static' is not T:PATH=simulated"},
+      {{"run", "m.urdf", "--toggle", "-1:a=simulated"}, "'-1:a=simulated' is not T:PATH=simulated"},
+      {{"run", "m.urdf", "--toggle", "9:a=simulated"}, "the toggle of 'a' lies beyond the duration"},
+      {{"run", "m.urdf", "--out", "t.xml"}, "'t.xml' is not a file name that ends in .csv or .json"},
+  };
+  for (const Misuse& misuse : misuses) {
+    const Ran ran = pantin(misuse.arguments);
+    EXPECT_EQ(ran.code, 2) << misuse.says << ran.err;
+    EXPECT_TRUE(ran.says(misuse.says)) << misuse.says << "\n" << ran.err;
+    EXPECT_EQ(ran.out, "");
+  }
+}
+
+TEST(Output, ThatCannotBeWrittenIsAnError) {
+  // /dev/full takes nothing: the result is lost, and that must show.
+  const Folder folder;
+  const Ran ran = pantin({"info", "--json", folder.write("pendulum.urdf", kPendulumUrdf)}, "/dev/full");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_TRUE(ran.says("standard output could not be written completely")) << ran.err;
+}
+
+TEST(Output, OfWhichNobodyReadsIsNoError) {
+  // `pantin ... | head` closes the pipe early; the file of --out is written all the same, and nothing dies.
+  const Folder folder;
+  const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
+  const std::string command = std::string{PANTIN_BINARY_DIR "/bin/pantin run --json --simulate all "} + file +
+                              " --out " + folder.path("t.json") + " 2>" + folder.path("err") + "; echo $? >" +
+                              folder.path("code");
+  FILE* pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  pclose(pipe);
+  EXPECT_EQ(text_of(folder.path("code")), "0\n");
+  EXPECT_EQ(text_of(folder.path("err")), "");
+  EXPECT_FALSE(Json::parse(text_of(folder.path("t.json")), nullptr, false).is_discarded());
+}
+
+TEST(Output, DoesNotDependOnTheLocale) {
+  // A locale with a decimal comma must not reach files or arguments; where it is not installed nothing is
+  // shown.
+  const Folder folder;
+  const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
+  const std::string plain = pantin({"info", "--json", file, "--joint", "hinge=0.5"}).out;
+  setenv("LC_ALL", "de_DE.UTF-8", 1);
+  const std::string german = pantin({"info", "--json", file, "--joint", "hinge=0.5"}).out;
+  unsetenv("LC_ALL");
+  EXPECT_EQ(plain, german);
+  EXPECT_NE(plain.find("0.5"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pantin::test
