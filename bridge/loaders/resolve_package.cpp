@@ -89,6 +89,8 @@ class Search {
 
 void search_package(std::string_view name, const fs::path& model, std::span<const fs::path> package_paths,
                     ResolvedFile& result) {
+  name.remove_prefix(
+      std::min(name.find_first_not_of('/'), name.size()));  // "package:///NAME/..." is met in the wild
   const std::size_t slash = name.find('/');
   result.package = name.substr(0, slash);
   if (result.package.empty() || slash == std::string_view::npos) {

@@ -12,8 +12,8 @@ void Ledger::add(Severity severity, Finding finding) {
                        std::move(finding.remedy)}});
 }
 
-void Ledger::alike(Severity severity, const std::string& kind, Finding finding) {
-  const std::size_t most = severity == Severity::Note ? 1 : 5;
+void Ledger::alike(Severity severity, const std::string& kind, Finding finding, std::size_t most) {
+  if (severity == Severity::Note) most = 1;
   Kind& seen = kinds_[kind];
   if (seen.shown == most) {
     ++seen.more;

@@ -1,6 +1,6 @@
 #pragma once
 // The findings about one URDF file, collected by line. A robot of 130 links has the same finding dozens of
-// times: alike ones are counted, and only the first few of a kind are written out.
+// times: alike ones are counted, and only the first few of a kind are written.
 #include <cstddef>
 #include <map>
 #include <string>
@@ -27,9 +27,9 @@ class Ledger {
   void warning(Finding finding) { add(Severity::Warning, std::move(finding)); }
   void note(Finding finding) { add(Severity::Note, std::move(finding)); }
 
-  /// A finding that may come many times: of one `kind`, one note or five warnings are written, the last with
-  /// the number of the others.
-  void alike(Severity severity, const std::string& kind, Finding finding);
+  /// A finding that may come many times: of one `kind` the first `most` are written, of notes one; the last
+  /// of them says how many more there were.
+  void alike(Severity severity, const std::string& kind, Finding finding, std::size_t most = 5);
 
   [[nodiscard]] bool has_error() const noexcept { return has_error_; }
   /// "file:line"

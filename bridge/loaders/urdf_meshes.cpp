@@ -42,7 +42,7 @@ std::shared_ptr<const TriangleMesh> Meshes::read(const std::filesystem::path& fi
   }
   for (const Diagnostic& note : mesh.notes) {
     const bool lost = note.severity == Severity::Error;
-    ledger_.alike(lost ? Severity::Warning : note.severity, "mesh " + note.problem,
+    ledger_.alike(lost ? Severity::Warning : note.severity, "mesh " + note.subject,
                   {line, subject, "mesh '" + file.string() + "': " + note.problem + (lost ? "; dropped" : ""),
                    note.remedy});
   }

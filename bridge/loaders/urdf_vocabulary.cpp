@@ -84,19 +84,20 @@ struct Kept {
 void remove_attributes(const Kept& kept, Ledger& ledger) {
   std::vector<std::string> unknown;
   for (const tinyxml2::XMLAttribute* a = kept.element->FirstAttribute(); a != nullptr; a = a->Next()) {
-    const string_view name = a->Name();
-    if (kept.rule->attributes.find(' ' + std::string{name} + ' ') == string_view::npos)
-      unknown.emplace_back(name);
+    const std::string name = a->Name();
+    if (kept.rule->attributes.find(' ' + name + ' ') == string_view::npos) unknown.push_back(name);
   }
+  std::string list;
   for (const std::string& name : unknown) {
     kept.element->DeleteAttribute(name.c_str());
     if (name.starts_with("xmlns")) continue;  // declares a prefix, says nothing about the robot
-    const std::string owner = kept.element->Name();
-    ledger.alike(
-        Severity::Warning, "attribute " + owner + ' ' + name,
-        {kept.element->GetLineNum(), kept.subject,
-         "attribute '" + name + "' of <" + owner + "> is unknown and dropped", "check its spelling"});
+    list += (list.empty() ? "'" : ", '") + name + '\'';
   }
+  if (list.empty()) return;
+  const std::string problem =
+      "attribute " + list + " of <" + kept.element->Name() + "> is unknown and dropped";
+  ledger.alike(Severity::Warning, problem,
+               {kept.element->GetLineNum(), kept.subject, problem, "check the spelling"}, 1);
 }
 
 /// Says why the child goes; removing is the caller's.
@@ -113,7 +114,8 @@ void report_removal(const Kept& parent, const XMLElement& child, const Rule* rul
   } else {
     ledger.alike(Severity::Warning, "element " + owner + ' ' + name,
                  {line, parent.subject, "<" + name + "> in <" + owner + "> is unknown and dropped",
-                  "check its spelling and where it stands"});
+                  "check its spelling and where it stands"},
+                 1);
   }
 }
 
