@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <pantin/scenegraph/expects.hpp>
 #include <pantin/scenegraph/scene_storage.hpp>
@@ -40,11 +41,12 @@ std::vector<std::uint32_t> SceneStorage::compact() {
   std::vector<std::uint32_t> from;
   from.reserve(alive());
   collect(0, from);
-  const std::vector<std::uint32_t> parent = std::move(parent_);
-  const std::vector<Matrix34> local = std::move(local_);
-  const std::vector<Matrix34> world = std::move(world_);
-  const std::vector<NodeId> order = std::move(order_);
-  parent_ = {}, size_ = {}, local_ = {}, world_ = {}, order_ = {}, tails_ = {};
+  const std::vector<std::uint32_t> parent = std::exchange(parent_, {});
+  const std::vector<Matrix34> local = std::exchange(local_, {});
+  const std::vector<Matrix34> world = std::exchange(world_, {});
+  const std::vector<NodeId> order = std::exchange(order_, {});
+  size_ = std::vector<std::uint32_t>{};
+  tails_ = std::vector<Tail>{};
   tail_lists_.clear();
   holes_ = 0;
   last_open_ = kNone;
