@@ -128,6 +128,13 @@ TEST(MassPropertiesProblem, ToleratesRoundingOfTheTriangleInequality) {
   EXPECT_TRUE(problem_with(diagonal(1, 1, 1, 2 * (1 + 2e-9))));
 }
 
+TEST(MassPropertiesProblem, WaivesOnlyTheTriangleRule) {
+  // Solvable lets 1 + 1 < 3 pass, which equations of motion can do with; a negative moment still makes them explode.
+  EXPECT_FALSE(problem_with(diagonal(1, 3, 1, 1), InertiaCheck::Solvable));
+  EXPECT_TRUE(problem_with(diagonal(1, 3, 1, -1), InertiaCheck::Solvable));
+  EXPECT_TRUE(problem_with(diagonal(0, 3, 1, 1), InertiaCheck::Solvable));
+}
+
 TEST(MassPropertiesProblem, SaysWhereMassIsNotFinite) {
   // NaN is no mass.
   expect_problem(diagonal(kNaN, 1, 1, 1), ProblemCode::NotFinite, "mass is nan kg");
