@@ -129,7 +129,8 @@ TEST(MassPropertiesProblem, ToleratesRoundingOfTheTriangleInequality) {
 }
 
 TEST(MassPropertiesProblem, WaivesOnlyTheTriangleRule) {
-  // Solvable lets 1 + 1 < 3 pass, which equations of motion can do with; a negative moment still makes them explode.
+  // Solvable lets 1 + 1 < 3 pass, which equations of motion can do with; a negative moment still makes them
+  // explode.
   EXPECT_FALSE(problem_with(diagonal(1, 3, 1, 1), InertiaCheck::Solvable));
   EXPECT_TRUE(problem_with(diagonal(1, 3, 1, -1), InertiaCheck::Solvable));
   EXPECT_TRUE(problem_with(diagonal(0, 3, 1, 1), InertiaCheck::Solvable));
