@@ -50,7 +50,9 @@ std::vector<fs::path> folders_of(const char* variable) {
 
 /// Whether a folder is the root of a package, by its own name or by the <name> in its package.xml.
 bool is_package(const fs::path& folder, const std::string& package) {
-  if (folder.filename() == package) return true;
+  const fs::path normal = folder.lexically_normal();
+  if ((normal.has_filename() ? normal : normal.parent_path()).filename() == package)
+    return true;  // "p/" is p
   const fs::path manifest = folder / "package.xml";
   tinyxml2::XMLDocument document;
   if (!is_file(manifest) || document.LoadFile(manifest.c_str()) != tinyxml2::XML_SUCCESS) return false;

@@ -124,7 +124,9 @@ TEST(ArmUrdf, MakesLinksOfJoints) {
   EXPECT_EQ(right.mimic->multiplier, 1);
   EXPECT_EQ(right.mimic->offset, 0);
   for (const ModelNode& n : arm().nodes) {
-    if (n.link) EXPECT_EQ(problem_with(*n.link), "") << n.name;
+    if (n.link) {
+      EXPECT_EQ(problem_with(*n.link), "") << n.name;
+    }
   }
 }
 
