@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <support/allocation_guard.hpp>
 #include <support/contracts.hpp>
 #include <support/hand_made_bodies.hpp>
 
@@ -132,6 +133,24 @@ TEST(ForceManager, DependsOnVelocityWhereOneLawDoes) {
   EXPECT_TRUE(forces.depends_on_velocity());
   forces.remove(drag);
   EXPECT_FALSE(forces.depends_on_velocity());
+}
+
+TEST(ForceManager, AllocatesNothingWhileItGathers) {
+  // All built-in laws at once, wrenches and energies: counted from the first call on.
+  std::mt19937_64 random{21};
+  test::HandMadeBodies bodies;
+  const BodyId a = bodies.add_random(random), b = bodies.add_random(random);
+  ForceManager forces;
+  forces.add(Gravity{});
+  forces.add(ConstantLoad{.body = a, .force = {1, 2, 3}, .axes = LoadAxes::Body});
+  forces.add(LinearDrag{.coefficient = 1});
+  forces.add(DampedSpring{.a = {a}, .b = {b}, .stiffness = 1, .damping = 1});
+  std::vector<Wrench> wrenches(2);
+  const test::AllocationGuard guard;
+  forces.gather(bodies.at(), wrenches);
+  const double energy = forces.potential_energy(bodies.at());
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_TRUE(std::isfinite(energy));
 }
 
 /// Runs `call` and returns the text of the contract that it broke; empty if none.

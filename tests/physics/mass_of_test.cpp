@@ -186,7 +186,7 @@ TEST(MassOf, ScaledMeshIsThatOfTheScaledBox) {
   }
 }
 
-TEST(MassOf, AnOpenMeshBreakTheContract) {
+TEST(MassOf, AnOpenMeshBreaksTheContract) {
   // An open surface has no volume to integrate over.
   const test::ThrowOnContract guard;
   TriangleMesh mesh = test::box_mesh({1, 1, 1});
@@ -195,7 +195,7 @@ TEST(MassOf, AnOpenMeshBreakTheContract) {
   EXPECT_THROW((void)volume_of(test::mesh_shape(mesh)), test::ContractError);
 }
 
-TEST(MassOf, ABadShapeOrDensityBreakTheContract) {
+TEST(MassOf, ABadShapeOrDensityBreaksTheContract) {
   // Neither a negative radius nor a density that is negative or NaN makes a body.
   const test::ThrowOnContract guard;
   EXPECT_THROW((void)mass_of({SphereShape{-1}, {}}, 1), test::ContractError);
