@@ -287,7 +287,7 @@ bool Articulated::is_singular(const TreeLayout& layout, std::int32_t index) cons
   with_model(link.kind, [&](auto model) {
     for (std::uint32_t j = 0; j < decltype(model)::kRates; ++j) {
       const double d = D_[link.v + j][j];
-      singular = singular || !(d > 1e-12 * scale_[link.v + j]);
+      singular = singular || d <= 1e-12 * scale_[link.v + j];
     }
   });
   return singular;

@@ -63,7 +63,8 @@ class Articulated {
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
   [[nodiscard]] const LinkWork& link(std::int32_t i) const { return work_[static_cast<std::size_t>(i)]; }
-  /// After eliminate: whether a joint direction of this link meets no inertia (relative 1e-12).
+  /// After eliminate: whether a joint direction of this link meets no inertia (relative 1e-12). Links nearer to the
+  /// root than a singular one have no numbers and are not called singular for it.
   [[nodiscard]] bool is_singular(const TreeLayout& layout, std::int32_t link) const;
 
  private:
