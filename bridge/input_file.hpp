@@ -17,4 +17,7 @@ namespace pantin {
 /// The bytes of a file, or the error of problem_with_file.
 [[nodiscard]] Loaded<std::string> read_file(const std::filesystem::path& file, std::uintmax_t max_bytes);
 
+/// ".stl" of "Part.STL": the extension in lower case (ASCII), with its point; empty if there is none.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& file);
+
 }  // namespace pantin

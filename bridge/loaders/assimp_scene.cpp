@@ -53,7 +53,7 @@ LeftOut left_out_of(const aiScene& scene) {
 
 /// Extension of the file, or the first one of the importer that recognised its content.
 std::string extension_of(const std::filesystem::path& file, const Assimp::Importer& importer) {
-  std::string extension = file.extension().string();
+  std::string extension = lower_extension(file);
   if (extension.size() < 2) {
     const int index = importer.GetPropertyInteger("importerIndex", -1);
     const aiImporterDesc* about =
@@ -61,8 +61,6 @@ std::string extension_of(const std::filesystem::path& file, const Assimp::Import
     const std::string all = about != nullptr ? about->mFileExtensions : "unknown";
     extension = '.' + all.substr(0, all.find(' '));
   }
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return extension.substr(1);
 }
 

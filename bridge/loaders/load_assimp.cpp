@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <iterator>
 #include <utility>
 
+#include <pantin/bridge/input_file.hpp>
 #include <pantin/bridge/loaders/assimp_animation.hpp>
 #include <pantin/bridge/loaders/assimp_frame.hpp>
 #include <pantin/bridge/loaders/assimp_mesh.hpp>
@@ -180,7 +182,7 @@ Loaded<std::shared_ptr<const TriangleMesh>> load_mesh(const std::filesystem::pat
 
 bool assimp_reads(const std::filesystem::path& file) {
   try {
-    const std::string extension = file.extension().string();
+    const std::string extension = lower_extension(file);
     if (extension.size() < 2 || extension == ".xml") return false;
     return Assimp::Importer{}.IsExtensionSupported(extension);
   } catch (const std::exception&) {

@@ -91,9 +91,7 @@ constexpr std::array kLoaders{
 };
 
 Look look_at(const std::filesystem::path& file) {
-  Look look{.extension = file.extension().string(), .head = std::string(4096, '\0')};
-  std::transform(look.extension.begin(), look.extension.end(), look.extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  Look look{.extension = lower_extension(file), .head = std::string(4096, '\0')};
   std::ifstream stream{file, std::ios::binary};
   stream.read(look.head.data(), static_cast<std::streamsize>(look.head.size()));
   look.head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));

@@ -107,7 +107,7 @@ XMLElement* find_robot(tinyxml2::XMLDocument& document, Ledger& ledger) {
   if (robot == nullptr) {
     const XMLElement* root = document.RootElement();
     const std::string found =
-        root != nullptr ? std::string{"its root is <"} + root->Name() + ">" : "it is empty";
+        root != nullptr ? std::string{"its root is <"} + root->Name() + ">" : "it has no element";
     ledger.error({root != nullptr ? root->GetLineNum() : 0, "file", "has no <robot> element: " + found,
                   "give a robot description (URDF)"});
     return nullptr;

@@ -79,5 +79,11 @@ TEST_F(InputFile, ThatCannotBeExaminedIsNamed) {
   EXPECT_TRUE(text == "does not exist" || text.starts_with("cannot be examined")) << text;
 }
 
+TEST(LowerExtension, HasItsPointAndNoCapitals) {
+  // What comes after the last point of the name, as std::filesystem defines it.
+  EXPECT_EQ(lower_extension("folder.X/Part.Old.STL"), ".stl");
+  EXPECT_EQ(lower_extension("folder.X/part"), "");
+}
+
 }  // namespace
 }  // namespace pantin
