@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include <pantin/bridge/cli/command.hpp>
+#include <pantin/bridge/diagnostic.hpp>
 
 namespace pantin::cli {
 namespace {
@@ -23,8 +24,11 @@ void describe(CLI::App& program, Command& chosen) {
   program.set_version_flag("--version", "pantin " PANTIN_VERSION);
   program.require_subcommand(1);
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
-    return std::string{"pantin: error: "} + error.what() + "\nRun '" + app->get_name() +
-           " --help' for what can be said here.\n";
+    const std::vector<std::string> rest = app->remaining();
+    const bool no_command = app->get_subcommands().empty() && !rest.empty();
+    return "pantin: error: " +
+           (no_command ? "'" + printable(rest.front()) + "' is no command" : error.what()) + "\nRun '" +
+           app->get_name() + " --help' for what can be said here.\n";
   });
   add_info_command(program, chosen);
   add_check_command(program, chosen);

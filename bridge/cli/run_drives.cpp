@@ -95,8 +95,7 @@ std::vector<NodeId> plan_simulated(const RunOptions& options, const RunWorld& wo
   std::vector<NodeId> nodes;
   for (const std::string& path : options.simulate) {
     if (path == "all") {
-      const std::vector<NodeId> tops = world.scene.children(world.scene.root());
-      nodes.insert(nodes.end(), tops.begin(), tops.end());
+      nodes.push_back(world.scene.root());
     } else if (const NodeId node = world.scene.find(path)) {
       nodes.push_back(node);
     } else {

@@ -53,8 +53,9 @@ class Run {
     job_.ledger.add(report.notes);
     if (!report.last.ok()) {
       outcome_.code = ExitCode::NumericalFailure;
+      const bool culprit_is_named = has_error(report.notes);
       job_.ledger.add({Severity::Error, "t = " + short_number(report.time) + " s", "simulation",
-                       report.last.message.empty() ? "numbers went wrong" : report.last.message,
+                       "stopped early" + (culprit_is_named ? "" : ": " + report.last.message),
                        "try a smaller --step; what was reached until then is kept"});
       return false;
     }

@@ -177,7 +177,7 @@ TEST(Info, NamesWhatItCannotFind) {
   const std::string gltf = folder.write("cart.gltf", cart_gltf());
   const std::vector<Refusal> refusals{
       {{urdf, "--joint", "hing=1"}, "--joint 'hing=1': no link has this name; did you mean 'hinge'?"},
-      {{urdf, "--joint", "base=1"}, "--joint 'base=1': this node has no link"},
+      {{gltf, "--joint", "track=1"}, "--joint 'track=1': this node has no link"},
       {{urdf, "--joint", "glue=1"}, "--joint 'glue=1': the link is fixed and has no value; leave it out"},
       {{urdf, "--joint", "hinge=1,2"},
        "--joint 'hinge=1,2': the value does not fit a pivot; give one angle in rad"},

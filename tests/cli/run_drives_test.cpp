@@ -5,8 +5,8 @@
 namespace pantin::test {
 namespace {
 
-Json run(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"run", "--json", "--gravity", "0,0,0"});
+Json run(std::vector<std::string> arguments, const std::string& gravity = "0,0,0") {
+  arguments.insert(arguments.begin(), {"run", "--json", "--gravity", gravity});
   const Ran ran = pantin(arguments);
   EXPECT_EQ(ran.code, 0) << ran.err;
   return ran.json();
@@ -79,9 +79,9 @@ TEST(Drives, ToggleInFlightBothWays) {
   // it is at (2, -g/8); then animated again, and led back to the clip, which is never far below y = 0. RK4 is
   // exact here.
   const Folder folder;
-  const Json result = run({folder.write("cart.gltf", cart_gltf()), "--gravity", "0,-9.81,0", "--toggle",
-                           "0.5:track/cart=simulated", "--toggle", "1:track/cart=animated", "--duration",
-                           "3.5", "--every", "0.25"});
+  const Json result = run({folder.write("cart.gltf", cart_gltf()), "--toggle", "0.5:track/cart=simulated",
+                           "--toggle", "1:track/cart=animated", "--duration", "3.5", "--every", "0.25"},
+                          "0,-9.81,0");
   EXPECT_EQ(cart_at(result, 0.25)["drive"], "animated");
   EXPECT_EQ(cart_at(result, 0.5)["drive"], "simulated");
   EXPECT_EQ(cart_at(result, 0.75)["drive"], "simulated");
@@ -97,8 +97,9 @@ TEST(Drives, ToggleAtTimesBetweenSteps) {
   // 0.3137 s is no multiple of the step or of the samples: the clip is left at 2 * 0.3137 m, and the throw is
   // exact from there, so that at 1 s the cart is where the clip would be; y has fallen for 1 - 0.3137 s.
   const Folder folder;
-  const Json result = run({folder.write("cart.gltf", cart_gltf()), "--gravity", "0,-9.81,0", "--toggle",
-                           "0.3137:track/cart=simulated", "--duration", "1"});
+  const Json result = run(
+      {folder.write("cart.gltf", cart_gltf()), "--toggle", "0.3137:track/cart=simulated", "--duration", "1"},
+      "0,-9.81,0");
   EXPECT_NEAR(x_at(result, 1), 2, 1e-12);
   EXPECT_NEAR(y_at(result, 1), -9.81 / 2 * (1 - 0.3137) * (1 - 0.3137), 1e-12);
 }
@@ -116,8 +117,9 @@ TEST(Drives, ToggleAtTimeZeroAndAtTheEnd) {
 TEST(Drives, MeasureTheDriftAfreshAfterAToggle) {
   // Handing over adds the cart's energy at once; that is no drift of the integrator.
   const Folder folder;
-  const Json summary = run({folder.write("cart.gltf", cart_gltf()), "--gravity", "0,-9.81,0", "--toggle",
-                            "0.5:track/cart=simulated", "--duration", "2"})["summary"];
+  const Json summary =
+      run({folder.write("cart.gltf", cart_gltf()), "--toggle", "0.5:track/cart=simulated", "--duration", "2"},
+          "0,-9.81,0")["summary"];
   EXPECT_EQ(summary["energy_initial"], 0.0);
   EXPECT_NEAR(summary["energy_final"].get<double>(), 2, 1e-9);  // 1 kg at 2 m/s, let go at height 0
   EXPECT_EQ(summary["energy_conserved_expected"], true);
