@@ -186,4 +186,18 @@ void ObjectReader::note(std::string_view key, std::string problem, std::string r
                      "'" + std::string{key} + "': " + std::move(problem), std::move(remedy)});
 }
 
+std::optional<std::string> read_type(ObjectReader& reader) {
+  if (reader.has("type")) return reader.text_if("type");
+  (void)reader.text("type");
+  return std::nullopt;
+}
+
+void refuse_type(ObjectReader& reader, const std::optional<std::string>& type, const char* known) {
+  if (type) {
+    reader.error("type", "is '" + *type + "', which the reader does not know",
+                 std::string{"known are "} + known);
+  }
+  reader.skip_all();
+}
+
 }  // namespace pantin::reference

@@ -67,6 +67,11 @@ class ObjectReader {
   std::vector<bool> read_;
 };
 
+/// The 'type' of an object; nothing, and an error, where it has none or it is no text.
+[[nodiscard]] std::optional<std::string> read_type(ObjectReader& reader);
+/// Names a type that the reader does not know; the other keys mean nothing then.
+void refuse_type(ObjectReader& reader, const std::optional<std::string>& type, const char* known);
+
 /// How much a quaternion or an axis in a file may miss unit length: what twelve printed digits leave.
 inline constexpr double kUnitTolerance = 1e-9;
 

@@ -31,7 +31,7 @@ Vector3 first_of(ObjectReader& reader, const char* first, const char* second, co
 
 AngleLaw read_law(const JsonValue& value, const PartContext& context, const std::string& subject) {
   ObjectReader reader{value, context.place, "law of " + subject, context.ledger};
-  const std::string type = reader.text("type");
+  const std::optional<std::string> type = read_type(reader);
   if (type == "sine") {
     SineLaw law;
     law.amplitude = reader.number("amplitude");
@@ -46,11 +46,7 @@ AngleLaw read_law(const JsonValue& value, const PartContext& context, const std:
     law.acceleration = reader.number("acceleration");
     return law;
   }
-  if (reader.has("type")) {
-    reader.error("type", "is '" + type + "', which the reader does not know",
-                 "known are sine and uniform_acceleration");
-  }
-  reader.skip_all();
+  refuse_type(reader, type, "sine and uniform_acceleration");
   return SineLaw{};
 }
 

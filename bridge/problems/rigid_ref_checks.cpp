@@ -82,12 +82,22 @@ class Checker {
             "a mass is greater than zero");
       return;
     }
-    if (const auto problem = problem_with(body.mass)) {
-      error(pointer + "/inertia_cog_body", subject, problem->text, problem->remedy);
+    const std::string inertia = pointer + "/inertia_cog_body";
+    if (const auto problem = problem_with(body.mass, InertiaCheck::Solvable)) {
+      error(inertia, subject, problem->text, problem->remedy);
       return;
     }
-    const RigidBodySettings settings{
-        .name = body.name, .X_WB = body.X_WB, .v_WBcm = body.v_WBcm, .w_WB = body.w_WB, .mass = body.mass};
+    // No body has such moments, but the equations of motion do not mind.
+    if (const auto problem = problem_with(body.mass)) {
+      found_.push_back(
+          {Severity::Warning, problem_.file + '#' + inertia, subject, problem->text, problem->remedy});
+    }
+    const RigidBodySettings settings{.name = body.name,
+                                     .X_WB = body.X_WB,
+                                     .v_WBcm = body.v_WBcm,
+                                     .w_WB = body.w_WB,
+                                     .mass = body.mass,
+                                     .inertia_check = InertiaCheck::Solvable};
     if (const auto problem = problem_with(settings)) error(pointer, subject, problem->text, problem->remedy);
   }
 

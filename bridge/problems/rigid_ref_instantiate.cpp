@@ -110,11 +110,13 @@ class Builder {
     built_.bodies.emplace(body.name, physics_.add(std::move(settings)));
   }
   void add(const Body& body) {
-    built_.bodies.emplace(body.name, physics_.add(RigidBodySettings{.name = body.name,
-                                                                    .X_WB = body.X_WB,
-                                                                    .v_WBcm = body.v_WBcm,
-                                                                    .w_WB = body.w_WB,
-                                                                    .mass = body.mass}));
+    built_.bodies.emplace(body.name,
+                          physics_.add(RigidBodySettings{.name = body.name,
+                                                         .X_WB = body.X_WB,
+                                                         .v_WBcm = body.v_WBcm,
+                                                         .w_WB = body.w_WB,
+                                                         .mass = body.mass,
+                                                         .inertia_check = InertiaCheck::Solvable}));
   }
 
   [[nodiscard]] BodyId id_of(const std::string& name) const {

@@ -5,15 +5,6 @@
 namespace pantin::reference {
 namespace {
 
-/// Names a type that the reader does not know; its other keys mean nothing then.
-void refuse_type(ObjectReader& reader, const std::string& type, const char* known) {
-  if (reader.has("type") && reader.value().kind == JsonKind::Object) {
-    reader.error("type", "is '" + type + "', which the reader does not know",
-                 std::string{"known are "} + known);
-  }
-  reader.skip_all();
-}
-
 SpringEnd read_end(ObjectReader& spring, const char* key, const PartContext& context) {
   const JsonValue* value = spring.object_if(key);
   if (value == nullptr) {
@@ -38,6 +29,7 @@ SpringEnd read_end(ObjectReader& spring, const char* key, const PartContext& con
 std::string read_target(ObjectReader& reader) {
   if (reader.has("particle") && reader.has("body")) {
     reader.error("particle", "stands beside 'body'", "leave one out");
+    reader.skip({"body"});
   }
   if (std::optional<std::string> particle = reader.text_if("particle")) return *std::move(particle);
   if (reader.has("particle")) return {};
@@ -56,7 +48,7 @@ Plane read_plane(ObjectReader& reader) {
 Joint read_joint(const JsonValue& value, const PartContext& context) {
   ObjectReader reader{value, context.place, subject_of("joint", value), context.ledger};
   Joint joint;
-  const std::string type = reader.text("type");
+  const std::optional<std::string> type = read_type(reader);
   joint.name = reader.text("name");
   if (type == "pivot") {
     joint.kind = JointKind::Pivot;
@@ -85,9 +77,9 @@ Joint read_joint(const JsonValue& value, const PartContext& context) {
 
 Force read_force(const JsonValue& value, const PartContext& context) {
   ObjectReader reader{value, context.place, subject_of("force", value), context.ledger};
-  const std::string type = reader.text("type");
+  const std::optional<std::string> type = read_type(reader);
   reader.skip({"name"});
-  if (!type.empty() && reader.subject() == "force") reader.set_subject("force " + type);
+  if (type && reader.subject() == "force") reader.set_subject("force " + *type);
   if (type == "spring_damper_point_to_point") {
     Spring spring;
     spring.a = read_end(reader, "a", context);
@@ -123,7 +115,7 @@ Force read_force(const JsonValue& value, const PartContext& context) {
 
 Contact read_contact(const JsonValue& value, const PartContext& context) {
   ObjectReader reader{value, context.place, subject_of("contact", value), context.ledger};
-  const std::string type = reader.text("type");
+  const std::optional<std::string> type = read_type(reader);
   reader.skip({"name"});
   Contact contact;
   if (type == "box_plane") {

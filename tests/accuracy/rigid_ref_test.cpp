@@ -48,8 +48,8 @@ TEST(RigidRef, ReadsEveryField) {
   ASSERT_EQ(p.samples.size(), 2u);
   EXPECT_TRUE(p.samples[0].bodies.empty());
   EXPECT_FALSE(p.samples[0].energy.has_value());
-  EXPECT_EQ(p.samples[1].bodies.at(0).w_WB, Vector3(0, 0, 1));
-  EXPECT_EQ(p.samples[1].bodies.at(1).p_WBcm, Vector3(1, 1, 1));
+  EXPECT_EQ(p.samples[1].bodies.at(1).w_WB, Vector3(0, 0, 1));
+  EXPECT_EQ(p.samples[1].bodies.at(0).p_WBcm, Vector3(1, 1, 1));  // keys are written in alphabetical order
   EXPECT_EQ(p.samples[1].energy->total, 6);
   EXPECT_EQ(p.accuracy.absolute, 1e-12);
   EXPECT_EQ(p.accuracy.attitude_sensitivity.at(0), (std::pair{0.5, 3.0}));
@@ -106,16 +106,37 @@ TEST(RigidRef, WarnsOfARateAcrossAPivot) {
             std::string::npos);
 }
 
-TEST(RigidRef, RefusesImpossibleInertia) {
-  // Principal moments 1, 1, 3 break the triangle rule A + B >= C; the words are those of
-  // problem_with(MassProperties).
+/// The one note about a file whose bob has this inertia.
+Loaded<ReferenceProblem> with_inertia(const Vector3& moments) {
   json problem = good();
-  problem["bodies"][1]["inertia_cog_body"] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 3}};
-  const Loaded<ReferenceProblem> read = parse_rigid_ref(problem.dump(), "f");
+  problem["bodies"][1]["inertia_cog_body"] = {{moments[0], 0, 0}, {0, moments[1], 0}, {0, 0, moments[2]}};
+  return parse_rigid_ref(problem.dump(), "f");
+}
+
+TEST(RigidRef, WarnsOfInertiaThatNoBodyHas) {
+  // Principal moments 1, 1, 3 break the triangle rule A + B >= C, yet the equations of motion have a
+  // solution; the words are those of problem_with(MassProperties).
+  const Loaded<ReferenceProblem> read = with_inertia({1, 1, 3});
+  const auto problem = problem_with(MassProperties{.I_BBcm_B = Vector3{1, 1, 3}.asDiagonal()});
+  EXPECT_EQ(lines(read.notes), "f#/bodies/1/inertia_cog_body: warning: body 'bob': " + problem->text + "; " +
+                                   problem->remedy + '\n');
+  ASSERT_TRUE(read.value.has_value());
+  ReferenceProblem buildable_one = *read.value;
+  buildable_one.particles.clear();
+  buildable_one.contacts.clear();
+  buildable_one.samples.clear();
+  buildable_one.forces.resize(3);
+  PhysicsManager physics;
+  EXPECT_TRUE(instantiate(buildable_one, physics).value.has_value());
+}
+
+TEST(RigidRef, RefusesNegativeInertia) {
+  // A negative moment makes a motion that gains energy by turning slower.
+  const Loaded<ReferenceProblem> read = with_inertia({1, -1, 1});
+  const auto problem = problem_with(MassProperties{.I_BBcm_B = Vector3{1, -1, 1}.asDiagonal()});
   EXPECT_FALSE(read.value.has_value());
-  MassProperties mass{.I_BBcm_B = Vector3{1, 1, 3}.asDiagonal()};
-  EXPECT_EQ(lines(read.notes), "f#/bodies/1/inertia_cog_body: error: body 'bob': " +
-                                   problem_with(mass)->text + "; " + problem_with(mass)->remedy + '\n');
+  EXPECT_EQ(lines(read.notes), "f#/bodies/1/inertia_cog_body: error: body 'bob': " + problem->text + "; " +
+                                   problem->remedy + '\n');
 }
 
 TEST(RigidRef, FindsAllThatIsWrongAtOnce) {
