@@ -6,9 +6,11 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include <pantin/bridge/cli/command.hpp>
 #include <pantin/bridge/diagnostic.hpp>
+#include <pantin/scenegraph/expects.hpp>
 
 namespace pantin::cli {
 namespace {
@@ -48,7 +50,13 @@ ExitCode with_output_written(ExitCode code) {
   return code == ExitCode::Fine ? ExitCode::BadInput : code;
 }
 
+/// A broken contract is a mistake of this program: it is reported like one, not by a core dump.
+void throw_on_violation(const ContractViolation& violation) {
+  throw std::logic_error{violation.what + " [" + violation.expression + "]"};
+}
+
 ExitCode run(int argc, char** argv) {
+  contract_handler() = &throw_on_violation;
   std::signal(SIGPIPE, SIG_IGN);  // writing to a closed pipe fails like any other write
   std::ios::sync_with_stdio(false);
   CLI::App program;
