@@ -51,8 +51,8 @@ def random_values(model, randomness):
         joint = model.joints[i]
         low, high = -math.pi, math.pi
         if joint.nq == 1:
-            low = max(low, model.lowerPositionLimit[joint.idx_q])
-            high = min(high, model.upperPositionLimit[joint.idx_q])
+            low = max(low, float(model.lowerPositionLimit[joint.idx_q]))
+            high = min(high, float(model.upperPositionLimit[joint.idx_q]))
         values[model.names[i]] = randomness.uniform(low, high)
     return values
 
