@@ -1,8 +1,8 @@
 #pragma once
-// Hands nodes of a scene to physics and takes them back, turns links into joints, plays clips, and keeps time. A bound
-// node has exactly one writer (drive.hpp). At binding M_WN = X_WB * M_BN by polar decomposition: X_WB is the body's
-// pose, and the residual M_BN (scale, shear, mirror) stays constant, so nothing of the matrix is lost; from then on
-// M_PN = inverse(M_WP) * X_WB * M_BN.
+// Hands nodes of a scene to physics and takes them back, turns links into joints, plays clips, and keeps
+// time. A bound node has exactly one writer (drive.hpp). At binding M_WN = X_WB * M_BN by polar
+// decomposition: X_WB is the body's pose, and the residual M_BN (scale, shear, mirror) stays constant, so
+// nothing of the matrix is lost; from then on M_PN = inverse(M_WP) * X_WB * M_BN.
 //
 // hand-over            | keeps                                   | velocity
 // ---------------------|-----------------------------------------|-----------------------------------------
@@ -30,53 +30,56 @@ namespace pantin {
 enum class Base { Fixed, Floating };
 
 struct InstantiateSettings {
-  Base base{Base::Fixed};                     ///< Fixed gives the top node of a linked model a Fixed link
-  std::string prefix{};                       ///< not empty: a node of this name above the model's top nodes
-  Affine M_PM{Affine::Identity()};            ///< placement (an up-axis rotation, say); needs a prefix unless identity
+  Base base{Base::Fixed};           ///< Fixed gives the top node of a linked model a Fixed link
+  std::string prefix{};             ///< not empty: a node of this name above the model's top nodes
+  Affine M_PM{Affine::Identity()};  ///< placement (an up-axis rotation, say); needs a prefix unless identity
 };
 
 /// The nodes that became of a model.
 struct Instance {
-  NodeId root{};                      ///< the prefix node, else the only top node, else the parent it was put under
-  std::vector<NodeId> nodes{};        ///< by position in Model::nodes
+  NodeId root{};                ///< the prefix node, else the only top node, else the parent it was put under
+  std::vector<NodeId> nodes{};  ///< by position in Model::nodes
 };
 
 /// What a node brings along when it is handed over.
 struct NodeBody {
-  std::optional<MassProperties> mass{};    ///< in the node's axes; nothing = derived from shapes or meshes
-  std::vector<Shape> shapes{};             ///< solids for deriving the mass (and, later, collision)
-  std::vector<ModelMesh> meshes{};         ///< used where there are no shapes
-  double joint_damping{0};                 ///< of the node's link [N m s/rad] or [N s/m], >= 0
+  std::optional<MassProperties> mass{};  ///< in the node's axes; nothing = derived from shapes or meshes
+  std::vector<Shape> shapes{};           ///< solids for deriving the mass (and, later, collision)
+  std::vector<ModelMesh> meshes{};       ///< used where there are no shapes
+  double joint_damping{0};               ///< of the node's link [N m s/rad] or [N s/m], >= 0
 };
 
 struct HandOverSettings {
-  double density{1000};                    ///< for masses derived from geometry [kg/m^3], > 0
+  double density{1000};  ///< for masses derived from geometry [kg/m^3], > 0
 };
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const HandOverSettings& settings);
 
 struct TakeBackSettings {
-  double blend_time{0.25};                 ///< time constant of the way back to the clip [s], >= 0; 0 = at once
+  double blend_time{0.25};  ///< time constant of the way back to the clip [s], >= 0; 0 = at once
 };
+[[nodiscard]] std::optional<SettingsProblem> problem_with(const TakeBackSettings& settings);
 
 enum class TeleportVelocity { Keep, Zero };
 
 /// A change of drive at a time to come.
 struct Toggle {
-  double time{0};                          ///< [s], physics time; not in the past
+  double time{0};  ///< [s], physics time; not in the past
   NodeId node{};
   Scope scope{Scope::Subtree};
-  Drive drive{Drive::Physics};             ///< Physics = hand_over, Scene = take_back
+  Drive drive{Drive::Physics};  ///< Physics = hand_over, Scene = take_back
 };
 
 struct AdvanceReport {
-  int updates{0};                          ///< physics steps taken
-  std::int64_t evaluations{0};             ///< of the derivative, in all of them
-  double time{0};                          ///< physics time reached [s]
-  double dropped{0};                       ///< elapsed time thrown away by the cap on updates [s]
-  StepReport last{};                       ///< of the last step; not ok = the advance stopped there, scene untouched by it
-  std::vector<Diagnostic> notes{};         ///< of toggles that fell due, and of nodes that could not be written
+  int updates{0};               ///< physics steps taken
+  std::int64_t evaluations{0};  ///< of the derivative, in all of them
+  double time{0};               ///< physics time reached [s]
+  double dropped{0};            ///< elapsed time thrown away by the cap on updates [s]
+  StepReport last{};  ///< of the last step; not ok = the advance stopped there, scene untouched by it
+  std::vector<Diagnostic> notes{};  ///< of toggles that fell due, and of nodes that could not be written
 };
 
-/// Scene and physics must outlive the bridge. Verbs that return notes did nothing where one of them is an error.
+/// Scene and physics must outlive the bridge. Verbs that return notes did nothing where one of them is an
+/// error.
 class Bridge {
  public:
   Bridge(Scene& scene, PhysicsManager& physics, ClockSettings clock = {});
@@ -88,50 +91,54 @@ class Bridge {
   /// Makes nodes of a model under `parent`; remembers masses, shapes and meshes per node.
   Instance instantiate(const Model& model, NodeId parent, const InstantiateSettings& settings = {});
   void set_node_body(NodeId id, NodeBody body);
-  [[nodiscard]] const NodeBody* node_body(NodeId id) const;       ///< nullptr where nothing is known
-  /// Plays a clip from the present physics time on (settings.begin is relative to it). Null targets are left out. A
-  /// node that is animated by another clip already is an error.
+  [[nodiscard]] const NodeBody* node_body(NodeId id) const;  ///< nullptr where nothing is known
+  /// Plays a clip from the present physics time on (settings.begin is relative to it). Null targets are left
+  /// out. A node that is animated by another clip already is an error.
   std::vector<Diagnostic> play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings = {});
-  void stop_playing(NodeId id);                                   ///< removes the node from its clip
+  void stop_playing(NodeId id);  ///< removes the node from its clip
   [[nodiscard]] bool is_played(NodeId id) const;
 
   // Verbs
-  std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node, const HandOverSettings& settings = {});
-  std::vector<Diagnostic> take_back(NodeId id, Scope scope = Scope::Node, const TakeBackSettings& settings = {});
+  std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
+                                    const HandOverSettings& settings = {});
+  std::vector<Diagnostic> take_back(NodeId id, Scope scope = Scope::Node,
+                                    const TakeBackSettings& settings = {});
   std::vector<Diagnostic> follow(NodeId id, Scope scope = Scope::Node);  ///< bind with drive Scene
   std::vector<Diagnostic> fix(NodeId id, Scope scope = Scope::Node);     ///< bind with drive Static
-  void release(NodeId id, Scope scope = Scope::Node);                    ///< removes body and joint, keeps the node
-  /// Moves a bound or unbound node to a world matrix at once; the history is reset, also in a frame with no update.
-  /// The residual of a bound node must fit: an error names the node.
-  std::vector<Diagnostic> teleport(NodeId id, const Affine& M_WN, TeleportVelocity velocity = TeleportVelocity::Zero);
+  void release(NodeId id, Scope scope = Scope::Node);  ///< removes body and joint, keeps the node
+  /// Moves a bound or unbound node to a world matrix at once; the history is reset, also in a frame with no
+  /// update. The residual of a bound node must fit: an error names the node.
+  std::vector<Diagnostic> teleport(NodeId id, const Affine& M_WN,
+                                   TeleportVelocity velocity = TeleportVelocity::Zero);
   /// Moves the node under another parent, keeping its world matrix; joint frames are re-based.
   std::vector<Diagnostic> reparent(NodeId id, NodeId parent);
   /// Removes the node and all below it: joints first, then bodies, then nodes.
   void remove(NodeId id);
-  /// Sets a local matrix of a node that physics does not own; naming one that it owns breaks the contract (teleport).
+  /// Sets a local matrix of a node that physics does not own; naming one that it owns breaks the contract
+  /// (teleport).
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix.
   void set_link_value(NodeId id, const LinkValue& value);
 
   // Look-up
-  [[nodiscard]] std::optional<Drive> drive_of(NodeId id) const;   ///< nothing for a node without a body
-  [[nodiscard]] BodyId body_of(NodeId id) const;                  ///< null if it has none
-  [[nodiscard]] JointId joint_of(NodeId id) const;                ///< joint to what carries it; null if it has none
-  [[nodiscard]] NodeId node_of(BodyId id) const;                  ///< null for a body the bridge did not make
-  [[nodiscard]] std::vector<NodeId> bound() const;                ///< all bound nodes, parents first
+  [[nodiscard]] std::optional<Drive> drive_of(NodeId id) const;  ///< nothing for a node without a body
+  [[nodiscard]] BodyId body_of(NodeId id) const;                 ///< null if it has none
+  [[nodiscard]] JointId joint_of(NodeId id) const;  ///< joint to what carries it; null if it has none
+  [[nodiscard]] NodeId node_of(BodyId id) const;    ///< null for a body the bridge did not make
+  [[nodiscard]] std::vector<NodeId> bound() const;  ///< all bound nodes, parents first
   /// The constant residual of a bound node.
   [[nodiscard]] Affine residual(NodeId id) const;
 
   // Time
-  /// Adds elapsed time [s] >= 0 and takes the updates that fall due; the rest is carried over. Players are sampled at
-  /// physics time. User forces act on every update of the call and are then cleared.
+  /// Adds elapsed time [s] >= 0 and takes the updates that fall due; the rest is carried over. Players are
+  /// sampled at physics time. User forces act on every update of the call and are then cleared.
   AdvanceReport advance(double elapsed);
   /// As many updates as it takes to land on `time` exactly, the last one shortened.
   AdvanceReport advance_until(double time);
   void schedule(const Toggle& toggle);
-  [[nodiscard]] double time() const noexcept;                     ///< physics time [s]
+  [[nodiscard]] double time() const noexcept;  ///< physics time [s]
   [[nodiscard]] const Clock& clock() const noexcept;
-  void set_step(double step);                                     ///< [s], > 0
+  void set_step(double step);  ///< [s], > 0
   /// Writes the matrices of all simulated nodes from their bodies; done by advance. Idempotent.
   void sync_out();
   /// World matrix between the last two body poses, alpha in [0, 1] (clock().rest() / step); never stored.

@@ -1,12 +1,13 @@
 #pragma once
 // Who writes a bound node: exactly one writer each.
 //
-// | drive     | who writes the node        | scene -> physics                              | physics -> scene      |
+// | drive     | who writes the node        | scene -> physics                              | physics -> scene
+// |
 // |-----------|----------------------------|-----------------------------------------------|-----------------------|
-// | Static    | the user, by teleport      | pose at binding                               | never                 |
-// | Scene     | players and user           | every step: pose, velocity and acceleration   | never                 |
-// | Physics   | the solver                 | never, only teleport                          | after the steps,      |
-// |           |                            |                                               | parents first         |
+// | Static    | the user, by teleport      | pose at binding                               | never | | Scene
+// | players and user           | every step: pose, velocity and acceleration   | never                 | |
+// Physics   | the solver                 | never, only teleport                          | after the steps, |
+// |           |                            |                                               | parents first |
 #include <string_view>
 
 namespace pantin {

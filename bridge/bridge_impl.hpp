@@ -1,0 +1,148 @@
+#pragma once
+// Private to bridge. What a Bridge consists of. Each verb changes drives and bindings, then calls
+// `reconcile`, which gives every body below the change the kind, joint, mass and trajectory that follow from
+// them.
+#include <memory>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <pantin/bridge/binding.hpp>
+#include <pantin/bridge/bridge.hpp>
+#include <pantin/bridge/derive_mass.hpp>
+#include <pantin/bridge/polar.hpp>
+
+namespace pantin {
+
+struct Bridge::Impl {
+  Impl(Scene& its_scene, PhysicsManager& its_physics, ClockSettings settings);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  Scene& scene;
+  PhysicsManager& physics;
+  Clock clock;
+  std::vector<std::unique_ptr<Player>> players{};
+  std::vector<std::unique_ptr<Player>> finished_players{};  ///< kept until no trajectory can name them
+  std::unordered_map<NodeId, Player*> player_of{};
+  std::unordered_map<NodeId, NodeBody> node_bodies{};
+  std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
+  std::unordered_map<BodyId, Binding*> by_body{};
+  std::vector<Toggle> toggles{};      ///< by time
+  std::vector<Binding*> automatic{};  ///< bound by the bridge to carry somebody's joint
+  std::vector<Binding*> sharing{};    ///< whose mass is carried by another body, or that carry another's
+  /// Local matrices that nobody but the user writes and that animated bodies depend on, as last seen.
+  std::unordered_map<NodeId, Affine> watched{};
+
+  // Look-up (bridge.cpp)
+  void expect_alive(NodeId id, const char* verb) const;
+  [[nodiscard]] Binding* find(NodeId id) const;
+  [[nodiscard]] const Player* player(NodeId id) const;
+  /// The nearest bound node above; null if there is none.
+  [[nodiscard]] Binding* bound_above(NodeId id) const;
+  [[nodiscard]] NodeId bound_node_above(NodeId id) const;
+  /// All bindings, parents first.
+  [[nodiscard]] const std::vector<Binding*>& ordered();
+  void order_is_stale() noexcept { order_is_stale_ = true; }
+  /// Bindings at or below these nodes, parents first.
+  [[nodiscard]] std::vector<Binding*> below(std::span<const NodeId> tops) const;
+  [[nodiscard]] Diagnostic note(Severity severity, NodeId id, std::string problem, std::string remedy) const;
+  /// Motion of the body origin now, accelerations left out.
+  [[nodiscard]] RigidMotion motion_of(const Binding& binding) const;
+  [[nodiscard]] bool is_played_between(NodeId from, const Binding* above) const;
+
+  // Binding (bind.cpp)
+  Binding& bind(NodeId id, Drive drive, const Polar& at, const RigidMotion& motion,
+                const MassProperties& mass);
+  void unbind(Binding& binding);
+  void forget_vanished();
+
+  // Trajectories of animated nodes (trajectories.cpp)
+  void build_chain(Binding& binding) const;
+  /// Parts from the node below `above` (null: from the root) down to `id`.
+  [[nodiscard]] std::vector<ChainPart> chain_to(NodeId id, const Binding* above) const;
+  /// Motion of any node in the world now, as it was animated up to now.
+  [[nodiscard]] SplitMotion world_motion(NodeId id) const;
+  void start_blend(Binding& binding, const RigidMotion& X_WB, double blend_time);
+  void finish_blends();
+  /// A blending node has another parent: the way back begins again, from its present motion.
+  void blend_anew(Binding& binding, const RigidMotion& X_WB);
+  void rebake_residuals();
+  void watch(const Binding& binding);
+  void notice_moves();
+  void start_moves(double begin, double end);
+
+  // Making physics agree with the drives (reconcile.cpp, ties.cpp)
+  std::vector<Diagnostic> reconcile(std::span<const NodeId> tops);
+  std::vector<Diagnostic> settle(std::span<const NodeId> tops);
+  void link_up(std::span<Binding* const> affected) const;
+  std::vector<NodeId> bind_carriers(std::span<Binding* const> affected);
+  [[nodiscard]] Binding* idle_carrier() const;
+  void drop_idle_carriers();
+  [[nodiscard]] Tie wanted_tie(const Binding& binding) const;
+  void untie(Binding& binding);
+  void tie(Binding& binding, std::vector<Diagnostic>& notes);
+  void tie_by_link(Binding& binding, std::vector<Diagnostic>& notes);
+  void change_kind(Binding& binding, std::vector<Diagnostic>& notes);
+  [[nodiscard]] Pose trajectory_pose(const Binding& binding) const;
+  void jump_to_trajectory(Binding& binding);
+  void tell_turns(std::span<Binding* const> affected);
+  void remember_written(Binding& binding) const;
+  void hold_players(const Binding& binding);
+
+  // Masses (weigh.cpp)
+  [[nodiscard]] DerivedMass weigh(NodeId id, const Affine& M_BN, double density,
+                                  const std::unordered_set<NodeId>* also_bound = nullptr) const;
+  /// Derives the mass of a binding afresh: what is bound below it has changed.
+  void reweigh(Binding* binding);
+  [[nodiscard]] Binding& composite_top(Binding& binding) const;
+  void assign_masses(std::span<Binding* const> affected, std::vector<Diagnostic>& notes);
+  void assign_composite(Binding& top, std::vector<Diagnostic>& notes);
+  void set_mass(Binding& binding, const MassProperties& mass);
+
+  // Verbs (hand_over.cpp, take_back.cpp, teleport.cpp, edit_tree.cpp)
+  class HandOver;
+  class Teleport;
+  /// Which nodes a verb binds: the node, and with Subtree what declares mass or carries a moving link below
+  /// it.
+  [[nodiscard]] std::vector<NodeId> selected(NodeId id, Scope scope) const;
+  [[nodiscard]] std::vector<Binding*> bound_in(NodeId id, Scope scope) const;
+  std::vector<Diagnostic> bind_to_scene(NodeId id, Scope scope, Drive drive);
+  void stop_simulating(std::span<Binding* const> taken, Drive drive, double blend_time);
+  /// Lets physics see a trajectory whose pose goes on but whose velocity has changed.
+  void announce(Binding& binding);
+  void note_link_value(const Binding& binding);
+  void drop_player_of(NodeId id);
+  void let_players_in(std::span<const NodeId> nodes);
+
+  // Writing (sync.cpp)
+  [[nodiscard]] Affine parent_world(const Binding& binding) const;
+  /// Of a node that the bridge does not write.
+  [[nodiscard]] Affine world_of(const Binding& binding) const;
+  /// Whether some node above is written by the bridge, as far as is known above.
+  [[nodiscard]] static bool is_below_written(const Binding& binding);
+  void sync_out(std::vector<Diagnostic>* notes);
+  void write_scene(std::vector<Diagnostic>* notes);
+
+  // Time (advance.cpp)
+  void meet_physics_time();
+  AdvanceReport run_due();
+  [[nodiscard]] bool toggle_is_due() const;
+  void fire_toggles(std::vector<Diagnostic>& notes);
+
+  Bridge* self{nullptr};  ///< for toggles
+
+ private:
+  std::vector<Binding*> ordered_{};
+  bool order_is_stale_{true};
+};
+
+/// The joint's numbers as a value of the link, and back.
+[[nodiscard]] LinkValue link_value(const JointNumbers& numbers, const Binding& binding,
+                                   const LinkValue& near);
+[[nodiscard]] JointNumbers joint_numbers(const LinkValue& value, const Binding& binding);
+
+}  // namespace pantin

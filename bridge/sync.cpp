@@ -1,0 +1,90 @@
+// Physics -> scene: M_PN = inverse(M_WP) * X_WB * M_BN, parents first, with the parents' matrices as they
+// have just been written; and players before it, at physics time.
+#include <cmath>
+#include <cstring>
+
+#include <pantin/bridge/bridge_impl.hpp>
+
+namespace pantin {
+namespace {
+
+bool same_bits(const Affine& a, const Affine& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(double) * 16) == 0;
+}
+bool same_bits(const Pose& a, const Pose& b) {
+  return std::memcmp(a.p.data(), b.p.data(), sizeof(double) * 3) == 0 &&
+         std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), sizeof(double) * 4) == 0;
+}
+
+Affine affine_of(const Pose& X) {
+  Affine M = Affine::Identity();
+  M.linear() = X.rotation();
+  M.translation() = X.p;
+  return M;
+}
+
+}  // namespace
+
+bool Bridge::Impl::is_below_written(const Binding& binding) {
+  return binding.above != nullptr && (binding.above->is_written() || binding.above->below_written);
+}
+
+// Below a written node the scene is not up to date yet, so the product goes on from the bound node above.
+Affine Bridge::Impl::parent_world(const Binding& binding) const {
+  const NodeId parent = scene.parent(binding.node);
+  if (!binding.below_written) return scene.world(parent);
+  std::vector<NodeId> between;
+  for (NodeId id = parent; id != binding.above->node; id = scene.parent(id)) between.push_back(id);
+  Affine M_WP = binding.above->M_WN;
+  for (auto id = between.rbegin(); id != between.rend(); ++id) M_WP = M_WP * scene.local(*id);
+  return M_WP;
+}
+
+Affine Bridge::Impl::world_of(const Binding& binding) const {
+  if (!binding.below_written) return scene.world(binding.node);
+  return parent_world(binding) * scene.local(binding.node);
+}
+
+void Bridge::Impl::sync_out(std::vector<Diagnostic>* notes) {
+  std::vector<NodeLocal> writes;
+  std::vector<const Binding*> written;
+  for (Binding* binding : ordered()) {
+    binding->below_written = is_below_written(*binding);
+    if (!binding->is_written()) {
+      binding->M_WN = world_of(*binding);
+      continue;
+    }
+    const Pose X_WB = physics.body(binding->body).X_WB();
+    const Affine M_WP = parent_world(*binding);
+    if (same_bits(X_WB, binding->X_WB_written) && same_bits(M_WP, binding->M_WP_written)) continue;
+    binding->X_WB_written = X_WB;
+    binding->M_WP_written = M_WP;
+    const Affine M_WN = affine_of(X_WB) * binding->M_BN;
+    const std::optional<Affine> M_PN = solve_local(M_WP, M_WN);
+    if (!M_PN) {
+      binding->M_WN = M_WP * scene.local(binding->node);
+      if (notes == nullptr) continue;
+      notes->push_back(note(Severity::Warning, binding->node,
+                            "the world matrix above it has become singular; it keeps its last local matrix",
+                            "give its ancestors scales that are not 0"));
+      continue;
+    }
+    binding->M_WN = M_WN;
+    writes.push_back({binding->node, *M_PN});
+    written.push_back(binding);
+  }
+  scene.set_locals(writes);
+  for (const Binding* binding : written) note_link_value(*binding);
+}
+
+void Bridge::Impl::write_scene(std::vector<Diagnostic>* notes) {
+  finish_blends();
+  for (const std::unique_ptr<Player>& player : players) {
+    player->set_time(physics.time());
+    player->apply(scene);
+  }
+  rebake_residuals();
+  sync_out(notes);
+}
+
+}  // namespace pantin

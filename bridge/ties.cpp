@@ -1,0 +1,123 @@
+// The one joint by which a bound node hangs on what is above it.
+#include <cmath>
+#include <numbers>
+
+#include <pantin/bridge/bridge_impl.hpp>
+#include <pantin/bridge/links_to_joints.hpp>
+#include <pantin/physics/constraints/driven.hpp>
+
+namespace pantin {
+namespace {
+
+constexpr double kMisfit = 1e-6;  // of a link's local matrix: above it, the user is told
+
+}  // namespace
+
+Tie Bridge::Impl::wanted_tie(const Binding& binding) const {
+  if (binding.drive == Drive::Scene && binding.simulated_above != nullptr) {
+    return {Tie::Kind::Driven, binding.simulated_above->body, LinkKind::Fixed};
+  }
+  const Link* link = scene.link(binding.node);
+  if (binding.drive != Drive::Physics || link == nullptr || link->kind == LinkKind::Free) return {};
+  return {Tie::Kind::Link, binding.above == nullptr ? BodyId{} : binding.above->body, link->kind};
+}
+
+void Bridge::Impl::untie(Binding& binding) {
+  if (binding.joint && physics.contains(binding.joint)) physics.remove(binding.joint);
+  binding.joint = {};
+  binding.tie = {};
+}
+
+void Bridge::Impl::tie(Binding& binding, std::vector<Diagnostic>& notes) {
+  const Tie wanted = wanted_tie(binding);
+  if (wanted.kind == Tie::Kind::None) return;
+  if (physics.closes_loop(wanted.to, binding.body)) {
+    const Link* link = scene.link(binding.node);
+    const std::string joint =
+        wanted.kind == Tie::Kind::Driven ? "driven joint" : "joint '" + link->name + "'";
+    notes.push_back(note(Severity::Error, binding.node,
+                         "its " + joint + " closes a loop of joints, which this version cannot solve",
+                         "remove one joint of the loop"));
+    return;
+  }
+  binding.tie = wanted;
+  if (wanted.kind == Tie::Kind::Link) return tie_by_link(binding, notes);
+  binding.joint = physics.add(DrivenSettings{.name = scene.name(binding.node),
+                                             .a = wanted.to,
+                                             .b = binding.body,
+                                             .driver = std::make_unique<NodeDriver>(*binding.motion)});
+}
+
+void Bridge::Impl::tie_by_link(Binding& binding, std::vector<Diagnostic>& notes) {
+  const Link& link = *scene.link(binding.node);
+  LinkPlace place;
+  place.M_WP = scene.world(scene.parent(binding.node));
+  place.M_PN = scene.local(binding.node);
+  if (binding.tie.to) place.X_WA = physics.body(binding.tie.to).X_WB();
+  place.X_WB = physics.body(binding.body).X_WB();
+  std::optional<LinkJoint> joint = joint_of_link(link, place);
+  if (!joint) {
+    binding.tie = {};
+    notes.push_back(note(Severity::Error, binding.node,
+                         "the matrix above its link is singular, so the joint has no axis",
+                         "give its ancestors scales that are not 0"));
+    return;
+  }
+  if (joint->misfit > kMisfit) {
+    notes.push_back(
+        note(Severity::Warning, binding.node,
+             "its local matrix is not one that its " + std::string{to_string(link.kind)} + " link can make",
+             "the joint takes the present pose for that of the nearest value"));
+  }
+  const auto body = node_bodies.find(binding.node);
+  joint->definition.a = binding.tie.to;
+  joint->definition.b = binding.body;
+  joint->definition.damping = body == node_bodies.end() ? 0 : body->second.joint_damping;
+  if (joint->definition.name.empty()) joint->definition.name = scene.path(binding.node);
+  if (const std::optional<SettingsProblem> problem = problem_with(joint->definition)) {
+    binding.tie = {};
+    notes.push_back(note(Severity::Error, binding.node, problem->text, problem->remedy));
+    return;
+  }
+  binding.metres_per_value = joint->metres_per_value;
+  binding.joint = physics.add_joint(std::move(joint->definition));
+  scene.note_link_value(binding.node, joint->value);
+  if (link.kind == LinkKind::Pivot && std::abs(joint->value[0]) > std::numbers::pi) {
+    binding.pending_turns = joint->value[0];
+  }
+}
+
+LinkValue link_value(const JointNumbers& numbers, const Binding& binding, const LinkValue& near) {
+  switch (binding.tie.link) {
+    case LinkKind::Pivot:
+      return numbers[0];
+    case LinkKind::Slider:
+      return numbers[0] / binding.metres_per_value;
+    case LinkKind::Ball: {
+      double along = 0;
+      for (int i = 0; i < 4; ++i) along += numbers[i] * near[i];
+      const double sign = along < 0 ? -1 : 1;
+      return {sign * numbers[0], sign * numbers[1], sign * numbers[2], sign * numbers[3]};
+    }
+    default:
+      return {};
+  }
+}
+
+JointNumbers joint_numbers(const LinkValue& value, const Binding& binding) {
+  if (binding.tie.link == LinkKind::Slider) return value[0] * binding.metres_per_value;
+  return JointNumbers{value.numbers()};
+}
+
+void Bridge::Impl::note_link_value(const Binding& binding) {
+  const Link* link = scene.link(binding.node);
+  if (link == nullptr) return;
+  if (link->kind == LinkKind::Free) {
+    scene.note_link_value(binding.node, fit_link(*link, scene.local(binding.node), link->value).value);
+  } else if (binding.tie.kind == Tie::Kind::Link && value_size(link->kind) > 0 &&
+             physics.contains(binding.joint)) {
+    scene.note_link_value(binding.node, link_value(physics.joint_value(binding.joint), binding, link->value));
+  }
+}
+
+}  // namespace pantin
