@@ -258,9 +258,10 @@ double PhysicsManager::time() const noexcept { return impl_->bodies.state.time; 
 
 void PhysicsManager::set_time(double time) {
   PANTIN_EXPECTS(std::isfinite(time), "time is not finite");
-  impl_->constraints.stale(impl_->bodies);
+  impl_->constraints.prepare(impl_->bodies);
   impl_->bodies.state.time = time;
   impl_->bodies.state.time_compensation = 0;
+  impl_->pass_break();  // what is driven stands where it is at that time, with all that hangs on it
 }
 
 std::span<const BodyId> PhysicsManager::moved() const noexcept { return impl_->moved; }

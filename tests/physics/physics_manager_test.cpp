@@ -249,6 +249,25 @@ TEST(PhysicsManager, TeleportsWithItsHistory) {
   EXPECT_EQ(physics.body(id).w_WB(), Vector3(3, -5, 2));
 }
 
+TEST(PhysicsManager, PutsDrivenBodiesWhereTheyAreAtASetTime) {
+  // An animated body stands where its driver says for the time that is set, and carries what hangs on it.
+  PhysicsManager physics;
+  RigidBodySettings base{.name = "base", .kind = BodyKind::Animated};
+  base.driver = std::make_unique<test::FunctionDriver>([](double t, Side) {
+    return RigidMotion{.X_AB = {.p = {2 * t, 0, 0}}, .v_AB = {2, 0, 0}};
+  });
+  const BodyId ground = physics.add(std::move(base));
+  const BodyId bob =
+      physics.add(RigidBodySettings{.name = "bob", .X_WB = {{0, 0, -1}}, .mass = lopsided_mass()});
+  const JointId ball = physics.add(joint_here<BallSettings>(physics, ground, bob, Pose{}));
+  physics.set_time(3);
+  EXPECT_EQ(physics.time(), 3);
+  EXPECT_EQ(physics.body(ground).X_WB().p, Vector3(6, 0, 0));
+  EXPECT_LT((physics.body(bob).X_WB().p - Vector3{6, 0, -1}).norm(), 1e-14);
+  EXPECT_LT(physics.joint_drift().distance, 1e-14);
+  EXPECT_TRUE(physics.contains(ball));
+}
+
 TEST(PhysicsManager, AllocatesNothingInASteadyStep) {
   // Counted, not timed: after a first step the work space is there.
   PhysicsManager physics;
