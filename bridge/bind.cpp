@@ -18,7 +18,7 @@ Binding& Bridge::Impl::bind(NodeId id, Drive drive, const Polar& at, const Rigid
   auto binding = std::make_unique<Binding>();
   binding->node = id;
   binding->drive = drive;
-  binding->M_BN.linear() = at.S;
+  binding->M_BN = residual_of(at);
   binding->own_mass = mass;
   binding->M_WN = scene.world(id);
   RigidBodySettings settings;
@@ -50,17 +50,20 @@ void Bridge::Impl::unbind(Binding& binding) {
   order_is_stale_ = true;
 }
 
-// Nodes that were removed from the scene directly.
+// Nodes that were removed from the scene directly, with all below them.
 void Bridge::Impl::forget_vanished() {
-  std::vector<Binding*> gone;
+  std::vector<NodeId> bound, played;
   for (const auto& [node, binding] : bindings) {
-    if (!scene.contains(node)) gone.push_back(binding.get());
+    if (!scene.contains(node)) bound.push_back(node);
   }
-  if (gone.empty()) return;
-  for (Binding* binding : gone) {
-    node_bodies.erase(binding->node);
-    unbind(*binding);
+  for (const auto& [node, player] : player_of) {
+    if (!scene.contains(node)) played.push_back(node);
   }
+  for (const NodeId node : bound) unbind(*find(node));
+  for (const NodeId node : played) drop_player_of(node);
+  finished_players.clear();
+  if (bound.empty()) return;
+  for (const NodeId node : bound) node_bodies.erase(node);
   const NodeId everything = scene.root();
   static_cast<void>(reconcile({&everything, 1}));
 }

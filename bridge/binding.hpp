@@ -58,6 +58,10 @@ struct Binding {
   bool is_remembered{false};  ///< the above is up to date
   bool below_written{false};  ///< a bound node above is written by the bridge
 
+  /// Whether it moves as physics says: simulated, or carried by something simulated.
+  [[nodiscard]] bool moves_with_physics() const noexcept {
+    return drive == Drive::Physics || simulated_above != nullptr;
+  }
   /// Whether the bridge writes the node's matrix from its body.
   [[nodiscard]] bool is_written() const noexcept { return drive == Drive::Physics || blend.has_value(); }
 };

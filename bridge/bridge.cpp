@@ -154,6 +154,8 @@ Affine Bridge::residual(NodeId id) const {
 void Bridge::set_node_body(NodeId id, NodeBody body) {
   impl_->expect_alive(id, "set_node_body");
   impl_->node_bodies.insert_or_assign(id, std::move(body));
+  Binding* bound = impl_->find(id);
+  impl_->reweigh(bound != nullptr ? bound : impl_->bound_above(id));
 }
 
 const NodeBody* Bridge::node_body(NodeId id) const {

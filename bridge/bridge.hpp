@@ -30,7 +30,7 @@ namespace pantin {
 enum class Base { Fixed, Floating };
 
 struct InstantiateSettings {
-  Base base{Base::Fixed};           ///< Fixed gives the top node of a linked model a Fixed link
+  Base base{Base::Fixed};           ///< gives the top node of a linked model a Fixed link, or a Free one
   std::string prefix{};             ///< not empty: a node of this name above the model's top nodes
   Affine M_PM{Affine::Identity()};  ///< placement (an up-axis rotation, say); needs a prefix unless identity
 };
@@ -78,8 +78,10 @@ struct AdvanceReport {
   std::vector<Diagnostic> notes{};  ///< of toggles that fell due, and of nodes that could not be written
 };
 
-/// Scene and physics must outlive the bridge. Verbs that return notes did nothing where one of them is an
-/// error.
+/// Scene and physics must outlive the bridge; the bodies it made leave physics with it. Verbs that return
+/// notes did nothing where one of them is an error. While nodes are bound, the hierarchy is changed through
+/// the bridge (reparent, remove); nodes that were removed from the scene directly lose their bodies at the
+/// next verb or advance.
 class Bridge {
  public:
   Bridge(Scene& scene, PhysicsManager& physics, ClockSettings clock = {});
@@ -90,32 +92,43 @@ class Bridge {
   // Models and animation
   /// Makes nodes of a model under `parent`; remembers masses, shapes and meshes per node.
   Instance instantiate(const Model& model, NodeId parent, const InstantiateSettings& settings = {});
+  /// What a node brings along; a bound node, or the body that carries it, is weighed anew.
   void set_node_body(NodeId id, NodeBody body);
   [[nodiscard]] const NodeBody* node_body(NodeId id) const;  ///< nullptr where nothing is known
-  /// Plays a clip from the present physics time on (settings.begin is relative to it). Null targets are left
-  /// out. A node that is animated by another clip already is an error.
+  /// Plays a clip from the present physics time on (settings.begin is relative to it); its nodes, and
+  /// animated bodies with what hangs on them, are there at once. Null targets are left out. A node that is
+  /// animated by another clip already is an error.
   std::vector<Diagnostic> play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings = {});
-  void stop_playing(NodeId id);  ///< removes the node from its clip
+  void stop_playing(NodeId id);  ///< removes the node from its clip; it stays where it is
   [[nodiscard]] bool is_played(NodeId id) const;
 
   // Verbs
+  /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link
+  /// is joined to the nearest bound node above; if there is none, to the world, or to its parent if that is
+  /// played. Subtree takes the node and all below it that declare mass or have a link that moves; what
+  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet.
   std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
                                     const HandOverSettings& settings = {});
+  /// Simulated nodes are animated again. One that a clip moves, or moves with, is led back to it from where
+  /// it is and as it moves; any other one stays exactly where it is, at rest.
   std::vector<Diagnostic> take_back(NodeId id, Scope scope = Scope::Node,
                                     const TakeBackSettings& settings = {});
-  std::vector<Diagnostic> follow(NodeId id, Scope scope = Scope::Node);  ///< bind with drive Scene
-  std::vector<Diagnostic> fix(NodeId id, Scope scope = Scope::Node);     ///< bind with drive Static
+  /// Binds with drive Scene: a trajectory in the world, or a driven joint to the nearest simulated node
+  /// above. What the user moves between two advances moves evenly during the updates of the second.
+  std::vector<Diagnostic> follow(NodeId id, Scope scope = Scope::Node);
+  std::vector<Diagnostic> fix(NodeId id, Scope scope = Scope::Node);  ///< binds with drive Static
   void release(NodeId id, Scope scope = Scope::Node);  ///< removes body and joint, keeps the node
   /// Moves a bound or unbound node to a world matrix at once; the history is reset, also in a frame with no
-  /// update. The residual of a bound node must fit: an error names the node.
+  /// update. What hangs on a body by joints goes along, below an unbound node all bodies do. The residual of
+  /// a body must fit: an error names the node.
   std::vector<Diagnostic> teleport(NodeId id, const Affine& M_WN,
                                    TeleportVelocity velocity = TeleportVelocity::Zero);
-  /// Moves the node under another parent, keeping its world matrix; joint frames are re-based.
+  /// Moves the node under another parent, keeping its world matrix; link and joint frames are re-based.
   std::vector<Diagnostic> reparent(NodeId id, NodeId parent);
   /// Removes the node and all below it: joints first, then bodies, then nodes.
   void remove(NodeId id);
   /// Sets a local matrix of a node that physics does not own; naming one that it owns breaks the contract
-  /// (teleport).
+  /// (teleport). A static node is teleported.
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix.
   void set_link_value(NodeId id, const LinkValue& value);
@@ -126,15 +139,16 @@ class Bridge {
   [[nodiscard]] JointId joint_of(NodeId id) const;  ///< joint to what carries it; null if it has none
   [[nodiscard]] NodeId node_of(BodyId id) const;    ///< null for a body the bridge did not make
   [[nodiscard]] std::vector<NodeId> bound() const;  ///< all bound nodes, parents first
-  /// The constant residual of a bound node.
+  /// The residual M_BN of a bound node; constant unless a clip stretches it.
   [[nodiscard]] Affine residual(NodeId id) const;
 
   // Time
   /// Adds elapsed time [s] >= 0 and takes the updates that fall due; the rest is carried over. Players are
   /// sampled at physics time. User forces act on every update of the call and are then cleared.
   AdvanceReport advance(double elapsed);
-  /// As many updates as it takes to land on `time` exactly, the last one shortened.
+  /// As many updates as it takes to land on `time` exactly, the last one shortened; no cap.
   AdvanceReport advance_until(double time);
+  /// An update will end exactly at that time, and the verb is called then.
   void schedule(const Toggle& toggle);
   [[nodiscard]] double time() const noexcept;  ///< physics time [s]
   [[nodiscard]] const Clock& clock() const noexcept;

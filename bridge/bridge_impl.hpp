@@ -110,11 +110,22 @@ struct Bridge::Impl {
   /// it.
   [[nodiscard]] std::vector<NodeId> selected(NodeId id, Scope scope) const;
   [[nodiscard]] std::vector<Binding*> bound_in(NodeId id, Scope scope) const;
+  [[nodiscard]] std::vector<NodeId> bindable(NodeId id, Scope scope, Drive drive,
+                                             std::vector<Diagnostic>& notes) const;
+  void bind_new(NodeId node, Drive drive, const std::unordered_set<NodeId>& all,
+                std::vector<Diagnostic>& notes);
   std::vector<Diagnostic> bind_to_scene(NodeId id, Scope scope, Drive drive);
-  void stop_simulating(std::span<Binding* const> taken, Drive drive, double blend_time);
+  /// `tops`: all that the verb has changed, `taken` among them.
+  std::vector<Diagnostic> stop_simulating(std::span<Binding* const> taken, Drive drive, double blend_time,
+                                          std::span<const NodeId> tops);
   /// Lets physics see a trajectory whose pose goes on but whose velocity has changed.
   void announce(Binding& binding);
   void note_link_value(const Binding& binding);
+  /// Sets a link, if there is one, without its effect on the matrix.
+  void replace_link(NodeId id, const std::optional<Link>& link, const Affine& M_PN);
+  void refuse_statics_under(NodeId parent, NodeId id, std::vector<Diagnostic>& notes) const;
+  [[nodiscard]] std::optional<Link> rebased_link(NodeId id, NodeId parent,
+                                                 std::vector<Diagnostic>& notes) const;
   void drop_player_of(NodeId id);
   void let_players_in(std::span<const NodeId> nodes);
 

@@ -17,10 +17,8 @@ std::vector<NodeId> Bridge::Impl::bind_carriers(std::span<Binding* const> affect
     if (!is_played_between(parent, binding->above)) continue;
     const Polar at = polar(scene.world(parent).linear());
     if (at.singular) continue;
-    Affine M_BN = Affine::Identity();
-    M_BN.linear() = at.S;
     Binding& carrier =
-        bind(parent, Drive::Scene, at, RigidMotion{}, weigh(parent, M_BN, binding->density).mass);
+        bind(parent, Drive::Scene, at, RigidMotion{}, weigh(parent, residual_of(at), binding->density).mass);
     automatic.push_back(&carrier);
     reweigh(bound_above(parent));
     carriers.push_back(parent);

@@ -20,7 +20,6 @@ constexpr double kFlatInertia = 1e-12;  // least over greatest principal moment 
 struct Planned {
   NodeId node{};
   Polar at{};
-  Affine M_BN{Affine::Identity()};
   SplitMotion motion{};
   DerivedMass mass{};
 };
@@ -79,13 +78,12 @@ class Bridge::Impl::HandOver {
       return error(id, "its world matrix is singular, so no rigid body can follow it",
                    "give it and its ancestors scales that are not 0");
     }
-    planned.M_BN.linear() = planned.at.S;
     planned.motion = bridge_.world_motion(id);
     if (is_stretched(planned.motion)) {
       return error(id, "its scale or shear changes at this instant, which a rigid body cannot go on with",
                    "hand it over when its scale stands still, or stop the clip");
     }
-    planned.mass = bridge_.weigh(id, planned.M_BN, settings_.density, &nodes_);
+    planned.mass = bridge_.weigh(id, residual_of(planned.at), settings_.density, &nodes_);
     notes_.insert(notes_.end(), planned.mass.notes.begin(), planned.mass.notes.end());
     if (!planned.mass.known && bridge_.scene.link(id) == nullptr) {
       return error(id, "it has no mass, and neither shapes nor meshes to derive one from");
@@ -122,9 +120,8 @@ class Bridge::Impl::HandOver {
     for (const Binding* binding : bridge_.below({&id, 1})) {
       if (binding->drive != Drive::Static || nodes_.contains(binding->node)) continue;
       NodeId above = bridge_.scene.parent(binding->node);
-      while (above && !nodes_.contains(above) && bridge_.find(above) == nullptr)
-        above = bridge_.scene.parent(above);
-      if (!nodes_.contains(above)) continue;
+      while (above && !nodes_.contains(above)) above = bridge_.scene.parent(above);
+      if (!above) continue;
       error(binding->node, "it is static and would be carried along by the simulated node above it",
             "release it, or make it follow the scene");
     }
@@ -196,11 +193,14 @@ class Bridge::Impl::HandOver {
 
   void find_singular(std::vector<Diagnostic>& notes) {
     const std::vector<Binding*> affected = bridge_.below(tops());
+    const auto is_free_and_sound = [&](const Binding* binding) {
+      return !binding->joint && can_turn(bridge_.physics.body(binding->body).mass_properties());
+    };
+    if (std::all_of(affected.begin(), affected.end(), is_free_and_sound)) return;
     for (const auto& [joint, problem] : bridge_.physics.singular_joints()) {
       const auto culprit = std::find_if(affected.begin(), affected.end(), [&](const Binding* binding) {
         if (joint) return binding->joint == joint;
-        return binding->drive == Drive::Physics && binding->tie.kind == Tie::Kind::None &&
-               !can_turn(bridge_.physics.body(binding->body).mass_properties());
+        return binding->drive == Drive::Physics && !binding->joint && !is_free_and_sound(binding);
       });
       if (culprit == affected.end()) continue;
       notes.push_back(bridge_.note(Severity::Error, (*culprit)->node, problem.text, problem.remedy));

@@ -39,6 +39,8 @@ void NodeMotion::set_chain(const Affine& M_FA, std::vector<ChainPart> parts) {
       parts_.push_back(parts[k]);
     }
   }
+  still_.reset();
+  if (!is_played()) still_ = split(affine(0, Side::After));
 }
 
 LocalMotion NodeMotion::affine(double t, Side side, std::size_t parts) const {
@@ -64,7 +66,7 @@ SplitMotion NodeMotion::in_parent(double t, Side side) const {
 }
 
 SplitMotion NodeMotion::split_at(double t, Side side) const {
-  const SplitMotion motion = split(affine(t, side));
+  const SplitMotion motion = still_ ? *still_ : split(affine(t, side));
   return move_ ? move_->applied(motion, t, side) : motion;
 }
 

@@ -47,6 +47,7 @@ class NodeMotion {
 
   LocalMotion base_{};
   std::vector<ChainPart> parts_{};
+  std::optional<SplitMotion> still_{};  ///< of a chain that does not move
   std::optional<Offset> move_{};
 };
 

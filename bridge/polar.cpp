@@ -61,6 +61,12 @@ Polar polar(const Matrix3& M) {
   return result;
 }
 
+Affine residual_of(const Polar& polar) {
+  Affine M_BN = Affine::Identity();
+  M_BN.linear() = polar.S;
+  return M_BN;
+}
+
 std::optional<Affine> solve_local(const Affine& M_WP, const Affine& M_WN) {
   const Vector3 lengths = M_WP.linear().colwise().stableNorm();
   if (!M_WP.matrix().allFinite() || !(lengths.minCoeff() > 0)) return std::nullopt;

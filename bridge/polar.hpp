@@ -14,6 +14,9 @@ struct Polar {
   bool singular{false};  ///< no rotation is nearest, or only to round-off; q is then one of several
 };
 
+/// The residual M_BN of a node whose body has the rotation q and the node's origin.
+[[nodiscard]] Affine residual_of(const Polar& polar);
+
 /// By Newton's iteration X <- (g X + X^-T / g) / 2 with Higham's scaling g (Higham, Computing the polar
 /// decomposition, 1986, (3.1) and (4.1)); by singular values where that is not safe. Not finite counts as
 /// singular, with identity for q.

@@ -1,20 +1,10 @@
 // Physics -> scene: M_PN = inverse(M_WP) * X_WB * M_BN, parents first, with the parents' matrices as they
 // have just been written; and players before it, at physics time.
-#include <cmath>
-#include <cstring>
-
+#include <pantin/bridge/bits.hpp>
 #include <pantin/bridge/bridge_impl.hpp>
 
 namespace pantin {
 namespace {
-
-bool same_bits(const Affine& a, const Affine& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(double) * 16) == 0;
-}
-bool same_bits(const Pose& a, const Pose& b) {
-  return std::memcmp(a.p.data(), b.p.data(), sizeof(double) * 3) == 0 &&
-         std::memcmp(a.q.coeffs().data(), b.q.coeffs().data(), sizeof(double) * 4) == 0;
-}
 
 Affine affine_of(const Pose& X) {
   Affine M = Affine::Identity();

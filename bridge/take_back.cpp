@@ -1,17 +1,22 @@
 // Physics -> Scene, and binding nodes that are not simulated.
 #include <algorithm>
 
+#include <pantin/bridge/bits.hpp>
 #include <pantin/bridge/bridge_impl.hpp>
 
 namespace pantin {
 
 // Parents first: a child's way back begins in the frame of a parent that is on its own way back.
-void Bridge::Impl::stop_simulating(std::span<Binding* const> taken, Drive drive, double blend_time) {
+std::vector<Diagnostic> Bridge::Impl::stop_simulating(std::span<Binding* const> taken, Drive drive,
+                                                      double blend_time, std::span<const NodeId> tops) {
+  // The bodies are what counts, also where the user has stepped physics without writing the scene.
+  const auto is_behind = [this](const Binding* binding) {
+    return !same_bits(physics.body(binding->body).X_WB(), binding->X_WB_written);
+  };
+  if (std::any_of(taken.begin(), taken.end(), is_behind)) sync_out(nullptr);
   std::unordered_map<const Binding*, RigidMotion> measured;
-  std::vector<NodeId> tops;
   for (Binding* binding : taken) {
     measured[binding] = motion_of(*binding);
-    tops.push_back(binding->node);
     note_link_value(*binding);
     binding->M_PN_rest = scene.local(binding->node);
   }
@@ -29,7 +34,14 @@ void Bridge::Impl::stop_simulating(std::span<Binding* const> taken, Drive drive,
     start_blend(*binding, motion->second, blend_time);
     build_chain(*binding);
   }
+  std::vector<Diagnostic> notes = reconcile(tops);
+  if (!has_error(notes)) return notes;
+  for (Binding* binding : taken) {
+    binding->drive = Drive::Physics;
+    binding->blend.reset();
+  }
   static_cast<void>(reconcile(tops));
+  return notes;
 }
 
 std::vector<Diagnostic> Bridge::take_back(NodeId id, Scope scope, const TakeBackSettings& settings) {
@@ -42,26 +54,25 @@ std::vector<Diagnostic> Bridge::take_back(NodeId id, Scope scope, const TakeBack
   std::vector<Binding*> taken = impl_->bound_in(id, scope);
   std::erase_if(taken, [](const Binding* binding) { return binding->drive != Drive::Physics; });
   if (taken.empty()) return {};
-  impl_->stop_simulating(taken, Drive::Scene, settings.blend_time);
+  std::vector<NodeId> tops;
+  for (const Binding* binding : taken) tops.push_back(binding->node);
+  const std::vector<Diagnostic> notes =
+      impl_->stop_simulating(taken, Drive::Scene, settings.blend_time, tops);
   if (settings.blend_time == 0) impl_->write_scene(nullptr);
-  return {};
+  return notes;
 }
 
-std::vector<Diagnostic> Bridge::Impl::bind_to_scene(NodeId id, Scope scope, Drive drive) {
-  forget_vanished();
-  notice_moves();
+std::vector<NodeId> Bridge::Impl::bindable(NodeId id, Scope scope, Drive drive,
+                                           std::vector<Diagnostic>& notes) const {
   std::vector<NodeId> nodes = selected(id, scope);
   for (const Binding* binding : bound_in(id, scope)) {
     if (std::find(nodes.begin(), nodes.end(), binding->node) == nodes.end()) nodes.push_back(binding->node);
   }
-  const std::unordered_set<NodeId> all{nodes.begin(), nodes.end()};
-  std::vector<Diagnostic> notes;
   if (nodes.empty()) notes.push_back(note(Severity::Error, id, "it cannot be bound", "name a node below it"));
   for (const NodeId node : nodes) {
     const Binding* above = bound_above(node);
-    const bool carried =
-        above != nullptr && (above->drive == Drive::Physics || above->simulated_above != nullptr);
-    if (drive == Drive::Static && carried && !all.contains(above->node)) {
+    const bool carried = above != nullptr && above->moves_with_physics() && !scene.is_above(id, above->node);
+    if (drive == Drive::Static && carried) {
       notes.push_back(note(Severity::Error, node, "it would be carried along by a simulated node above it",
                            "make it follow the scene instead of fixing it"));
     }
@@ -71,36 +82,59 @@ std::vector<Diagnostic> Bridge::Impl::bind_to_scene(NodeId id, Scope scope, Driv
                            "give it and its ancestors scales that are not 0"));
     }
   }
-  if (has_error(notes)) return notes;
+  return nodes;
+}
 
-  std::vector<Binding*> simulated, others;
+void Bridge::Impl::bind_new(NodeId node, Drive drive, const std::unordered_set<NodeId>& all,
+                            std::vector<Diagnostic>& notes) {
+  const Polar at = polar(scene.world(node).linear());
+  const DerivedMass mass = weigh(node, residual_of(at), HandOverSettings{}.density, &all);
+  Binding* above = bound_above(node);
+  if (above != nullptr && above->moves_with_physics()) {  // it loads what carries it
+    notes.insert(notes.end(), mass.notes.begin(), mass.notes.end());
+  }
+  bind(node, drive, at, RigidMotion{}, mass.mass);
+  if (above != nullptr && !all.contains(above->node)) reweigh(above);
+}
+
+std::vector<Diagnostic> Bridge::Impl::bind_to_scene(NodeId id, Scope scope, Drive drive) {
+  forget_vanished();
+  notice_moves();
+  std::vector<Diagnostic> notes;
+  const std::vector<NodeId> nodes = bindable(id, scope, drive, notes);
+  if (has_error(notes)) return notes;
+  const std::unordered_set<NodeId> all{nodes.begin(), nodes.end()};
+  std::vector<Binding*> simulated;
+  std::vector<std::pair<NodeId, std::optional<Drive>>> others;  // and what they were
+  bool changes_writer = false;
   for (const NodeId node : nodes) {
-    if (Binding* binding = find(node)) {
-      std::erase(automatic, binding);
-      (binding->drive == Drive::Physics ? simulated : others).push_back(binding);
+    Binding* binding = find(node);
+    if (binding == nullptr) {
+      bind_new(node, drive, all, notes);
+      others.emplace_back(node, std::nullopt);
       continue;
     }
-    const Polar at = polar(scene.world(node).linear());
-    Affine M_BN = Affine::Identity();
-    M_BN.linear() = at.S;
-    const DerivedMass mass = weigh(node, M_BN, HandOverSettings{}.density, &all);
-    const Binding* above = bound_above(node);
-    if (above != nullptr && (above->drive == Drive::Physics || above->simulated_above != nullptr)) {
-      notes.insert(notes.end(), mass.notes.begin(), mass.notes.end());  // it loads what carries it
-    }
-    Binding& binding = bind(node, drive, at, RigidMotion{}, mass.mass);
-    if (Binding* outer = bound_above(node); outer != nullptr && !all.contains(outer->node)) reweigh(outer);
-    others.push_back(&binding);
-  }
-  for (Binding* binding : others) {
-    binding->is_remembered = binding->is_remembered && binding->drive == drive;
-    if (binding->drive != drive) binding->blend.reset();
+    std::erase(automatic, binding);
+    if (binding->drive == Drive::Physics) simulated.push_back(binding);
+    if (binding->drive == Drive::Physics || binding->drive == drive) continue;
+    others.emplace_back(node, binding->drive);
+    changes_writer = true;
+    binding->blend.reset();
+    binding->is_remembered = false;
     binding->drive = drive;
   }
-  if (!simulated.empty()) stop_simulating(simulated, drive, 0);
-  const std::vector<Diagnostic> more = reconcile(nodes);
+  const std::vector<Diagnostic> more = stop_simulating(simulated, drive, 0, nodes);
   notes.insert(notes.end(), more.begin(), more.end());
-  write_scene(nullptr);
+  if (has_error(notes)) {
+    for (auto other = others.rbegin(); other != others.rend(); ++other) {
+      if (other->second) find(other->first)->drive = *other->second;
+      else unbind(*find(other->first));
+    }
+    static_cast<void>(reconcile(nodes));
+    reweigh(bound_above(id));
+    return notes;
+  }
+  if (changes_writer || !simulated.empty()) write_scene(nullptr);
   return notes;
 }
 

@@ -1,18 +1,14 @@
 // Trajectories of animated nodes: which players and matrices they follow from, and how they go on when a node
 // was taken back or moved by the user.
 #include <algorithm>
-#include <cstring>
 
+#include <pantin/bridge/bits.hpp>
 #include <pantin/bridge/bridge_impl.hpp>
 
 namespace pantin {
 namespace {
 
 constexpr double kSameResidual = 1e-12;  // relative: what the product along a chain rounds
-
-bool same_bits(const Affine& a, const Affine& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(double) * 16) == 0;
-}
 
 }  // namespace
 
@@ -32,15 +28,25 @@ std::vector<ChainPart> Bridge::Impl::chain_to(NodeId id, const Binding* above) c
   return parts;
 }
 
+// Goes on from an animated body above that does not move, so that long chains of them cost one product each.
 void Bridge::Impl::build_chain(Binding& binding) const {
-  const Binding* above = binding.simulated_above;
-  binding.motion->set_chain(above == nullptr ? Affine::Identity() : above->M_BN,
-                            chain_to(binding.node, above));
+  const Binding* above = binding.above;
+  const bool goes_on = above != nullptr && above->drive == Drive::Scene && !above->motion->is_played();
+  Affine M_FA = Affine::Identity();
+  if (goes_on) M_FA.affine() = above->motion->affine(0, Side::After).value;
+  else if (binding.simulated_above != nullptr) M_FA = binding.simulated_above->M_BN;
+  binding.motion->set_chain(M_FA, chain_to(binding.node, goes_on ? above : binding.simulated_above));
 }
 
 SplitMotion Bridge::Impl::world_motion(NodeId id) const {
   const Binding* above = bound_above(id);
   while (above != nullptr && above->drive != Drive::Physics) above = above->above;
+  bool moves = false;
+  for (NodeId at = id; at && !moves && (above == nullptr || at != above->node); at = scene.parent(at)) {
+    const Binding* binding = find(at);
+    moves = player(at) != nullptr || (binding != nullptr && binding->blend);
+  }
+  if (!moves && above == nullptr) return split(constant_motion(scene.world(id)));
   NodeMotion motion;
   motion.set_chain(above == nullptr ? Affine::Identity() : above->M_BN, chain_to(id, above));
   const double now = physics.time();
@@ -130,8 +136,7 @@ void Bridge::Impl::notice_moves() {
     const RigidMotion before = binding->motion->split_at(physics.time(), Side::After).X;
     build_chain(*binding);
     const Pose after = binding->motion->split_at(physics.time(), Side::After).X.X_AB;
-    const bool same = after.p == before.X_AB.p && after.q.coeffs() == before.X_AB.q.coeffs();
-    if (!same && !binding->moved_from) binding->moved_from = before;
+    if (!same_bits(after, before.X_AB) && !binding->moved_from) binding->moved_from = before;
   }
 }
 

@@ -2,6 +2,7 @@
 // have is carried by the top one if the sum is sound.
 #include <algorithm>
 
+#include <pantin/bridge/bits.hpp>
 #include <pantin/bridge/bridge_impl.hpp>
 
 namespace pantin {
@@ -38,9 +39,7 @@ void Bridge::Impl::reweigh(Binding* binding) {
 void Bridge::Impl::set_mass(Binding& binding, const MassProperties& mass) {
   const RigidBody body = physics.body(binding.body);
   if (same(body.mass_properties(), mass)) return;
-  const Pose before = body.X_WB();
-  const Pose& written = binding.X_WB_written;
-  const bool is_written = before.p == written.p && before.q.coeffs() == written.q.coeffs();
+  const bool is_written = same_bits(body.X_WB(), binding.X_WB_written);
   physics.set_mass_properties(binding.body, mass, InertiaCheck::Solvable);
   if (is_written) binding.X_WB_written = physics.body(binding.body).X_WB();  // rounded anew
 }

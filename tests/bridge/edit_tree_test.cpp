@@ -10,15 +10,9 @@ namespace {
 
 using test::box;
 using test::moved;
+using test::says;
 using test::Stage;
 using test::turned;
-
-bool says(const std::vector<Diagnostic>& notes, const std::string& place, const std::string& problem) {
-  for (const Diagnostic& note : notes) {
-    if (note.place == place && note.problem.find(problem) != std::string::npos) return true;
-  }
-  return false;
-}
 
 TEST(Reparent, KeepsTheWorldMatrixAndTheMotion) {
   // A flying body changes parents under scale and shear: matrix and velocities are what they were, and
@@ -111,6 +105,19 @@ TEST(Reparent, RefusesALinkThatCannotBeRebased) {
   const NodeId id = s.scene.create(flat, "a");
   s.scene.set_link(id, test::pivot_link("j", Affine::Identity(), {0, 0, 1}));
   EXPECT_TRUE(says(s.bridge.reparent(id, s.scene.root()), "flat/a", "its link cannot be re-based"));
+}
+
+TEST(Reparent, RefusesAStaticNodeUnderASimulatedOne) {
+  // Its body would stand while its node went along; the followed group above it may not bring it there
+  // either.
+  Stage s;
+  const NodeId body = box(s, s.scene.root(), "body", Affine::Identity());
+  const NodeId group = s.scene.create(s.scene.root(), "group");
+  const NodeId wall = box(s, group, "wall", Affine::Identity());
+  ASSERT_FALSE(has_error(s.bridge.hand_over(body)));
+  ASSERT_FALSE(has_error(s.bridge.fix(wall)));
+  EXPECT_TRUE(says(s.bridge.reparent(group, body), "group/wall", "it is static and would be carried along"));
+  EXPECT_EQ(s.scene.parent(group), s.scene.root());
 }
 
 TEST(Release, KeepsTheNodeAndTiesWhatHungOnItToTheNextBody) {

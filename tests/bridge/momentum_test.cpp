@@ -25,12 +25,12 @@ struct Swimmer {
     forearm = box(s, arm, "forearm", Affine::Identity(), 1, {0.3, 0.1, 0});
     s.scene.set_link(forearm, test::pivot_link("elbow", moved({1, 0, 0}), {1, 1, 0}));
   }
-  void swing_arm() {
-    Clip clip{.name = "swing", .duration = 2};
-    clip.tracks.push_back(
-        test::cubic_track(0, Channel::LinkValue, 1, {{0}, {1.2}, {-0.5}}, {{0}, {0.5}, {0}}));
-    ASSERT_TRUE(s.bridge.play(clip, {arm}, {.loop = Loop::Once}).empty());
+  static Clip clip() {
+    return {.name = "swing",
+            .duration = 2,
+            .tracks = {test::cubic_track(0, Channel::LinkValue, 1, {{0}, {1.2}, {-0.5}}, {{0}, {0.5}, {0}})}};
   }
+  void swing_arm() { ASSERT_TRUE(s.bridge.play(clip(), {arm}, {.loop = Loop::Once}).empty()); }
 };
 
 TEST(AnimatedBelowSimulated, CannotChangeTheMomentumOfAFreeSystem) {
@@ -80,6 +80,29 @@ TEST(AnimatedBelowSimulated, FollowsItsClipWhileTheBodyTumbles) {
     static_cast<void>(s.bridge.advance(0.07));
     EXPECT_LT(test::relative_difference(test::by_body(s, swimmer.arm), s.scene.world(swimmer.arm)), 1e-12);
   }
+}
+
+TEST(AnimatedBelowSimulated, GoesOnWithTheClipsVelocityWhenHandedOver) {
+  // The arm is let go in the middle of its clip: momentum and energy do not jump, the joint has the clip's
+  // rate, and from then on the three bodies are free.
+  Swimmer swimmer;
+  Stage& s = swimmer.s;
+  ASSERT_FALSE(has_error(s.bridge.hand_over(swimmer.body, Scope::Subtree)));
+  ASSERT_TRUE(s.bridge.take_back(swimmer.arm).empty());
+  swimmer.swing_arm();
+  static_cast<void>(
+      s.bridge.advance_until(4.0));  // beyond the way back to the clip, which is at rest after 2 s
+  s.bridge.stop_playing(swimmer.arm);
+  swimmer.swing_arm();
+  static_cast<void>(s.bridge.advance_until(4.4));
+  const double energy = s.physics.energy().total();
+  ASSERT_FALSE(has_error(s.bridge.hand_over(swimmer.arm)));
+  EXPECT_NEAR(s.physics.energy().total(), energy, 1e-12);
+  const double rate = sample(swimmer.clip().tracks[0], 0.4).first[0];
+  EXPECT_NEAR(s.physics.joint_rate(s.bridge.joint_of(swimmer.arm)), rate, 1e-6);
+  static_cast<void>(s.bridge.advance(0.5));
+  EXPECT_LT(momentum(s.physics).linear.norm(), 1e-8);
+  EXPECT_NEAR(s.physics.energy().total(), energy, 1e-7 * energy);
 }
 
 TEST(SimulatedBelowAnimated, PendulumOnAnAcceleratedCartHangsAskew) {

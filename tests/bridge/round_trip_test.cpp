@@ -152,26 +152,17 @@ constexpr double kExact = 1e-12;
 
 TEST(RoundTrip, OfAHundredThousandRandomHierarchiesIsExact) {
   // M_WN = X_WB * M_BN by construction of the residual, before, between and after changes of drive in any
-  // order; scale, shear, mirrors and centres of gravity off the origin included. Nothing steps, so every
-  // difference is conversion.
-  double worst = 0;
+  // order; scale, shear, mirrors and centres of gravity off the origin included, every 500th tree a chain
+  // down to depth 50. Nothing steps, so every difference is conversion.
+  std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < 100'000; ++seed) {
-    Hierarchy tree{seed, 2 + static_cast<int>(seed % 4), 0.7};
-    for (int k = 0; k < 3; ++k) tree.act();
-    worst = std::max(worst, tree.greatest_difference());
-    ASSERT_LT(worst, kExact) << "seed " << seed;
+    const bool deep = seed % 500 == 0;
+    Hierarchy tree{seed, deep ? 50 : 2 + static_cast<int>(seed % 5), deep ? 0.98 : 0.7};
+    for (int k = 0; k < (deep ? 12 : 4); ++k) tree.act();
+    ASSERT_LT(tree.greatest_difference(), kExact) << "seed " << seed;
+    compared += tree.stage.bridge.bound().size();
   }
-}
-
-TEST(RoundTrip, OfDeepChainsIsExact) {
-  // The same down to depth 50, with many more changes.
-  double worst = 0;
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
-    Hierarchy tree{1'000'000 + seed, 50, 0.98};
-    for (int k = 0; k < 12; ++k) tree.act();
-    worst = std::max(worst, tree.greatest_difference());
-    ASSERT_LT(worst, kExact) << "seed " << seed;
-  }
+  EXPECT_GT(compared, 100'000U);
 }
 
 TEST(RoundTrip, WritesBackTheMatrixThatEachBodyAndResidualGive) {
@@ -214,6 +205,7 @@ TEST(RoundTrip, OfChangesOfDriveLeavesEveryWorldMatrixAlone) {
         default:
           tree.stage.bridge.release(id, scope);
       }
+      ASSERT_LT(tree.greatest_difference(), kExact) << seed;
     }
     EXPECT_TRUE(test::same_bits(before, test::locals(tree.stage.scene))) << seed;
   }

@@ -8,15 +8,9 @@ namespace {
 
 using test::box;
 using test::moved;
+using test::says;
 using test::Stage;
 using test::turned;
-
-bool says(const std::vector<Diagnostic>& notes, const std::string& place, const std::string& problem) {
-  for (const Diagnostic& note : notes) {
-    if (note.place == place && note.problem.find(problem) != std::string::npos) return true;
-  }
-  return false;
-}
 
 TEST(Teleport, WritesPreviousAndSceneAtOnceInAFrameWithoutUpdates) {
   // After a teleport nothing remembers the old place: not the scene, not the presented matrix at any alpha,

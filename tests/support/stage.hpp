@@ -140,6 +140,14 @@ inline Momentum momentum(const PhysicsManager& physics) {
   return sum;
 }
 
+/// Whether one of the notes has this place and this text in its problem.
+inline bool says(const std::vector<Diagnostic>& notes, const std::string& place, const std::string& problem) {
+  for (const Diagnostic& note : notes) {
+    if (note.place == place && note.problem.find(problem) != std::string::npos) return true;
+  }
+  return false;
+}
+
 inline std::string text_of(const std::vector<Diagnostic>& notes) {
   std::string out;
   for (const Diagnostic& note : notes) out += to_string(note) + "\n";
