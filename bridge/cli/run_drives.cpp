@@ -149,9 +149,22 @@ std::vector<PlannedToggle> assign_drives(const RunOptions& options, RunWorld& wo
   return toggles;
 }
 
-std::vector<Diagnostic> carry_out(Bridge& bridge, const PlannedToggle& toggle) {
-  return toggle.drive == Drive::Physics ? bridge.hand_over(toggle.node, Scope::Subtree)
-                                        : bridge.take_back(toggle.node, Scope::Subtree);
+std::vector<Diagnostic> carry_out(RunWorld& world, const PlannedToggle& toggle) {
+  const std::vector<NodeId> nodes = world.scene.subtree(toggle.node);
+  const auto simulated = [&] {
+    return std::count_if(nodes.begin(), nodes.end(),
+                         [&](NodeId id) { return world.bridge.drive_of(id) == Drive::Physics; });
+  };
+  const auto before = simulated();
+  std::vector<Diagnostic> notes = toggle.drive == Drive::Physics
+                                      ? world.bridge.hand_over(toggle.node, Scope::Subtree)
+                                      : world.bridge.take_back(toggle.node, Scope::Subtree);
+  if (!has_error(notes) && simulated() == before)
+    notes.push_back({Severity::Warning, "command line", "--toggle '" + toggle.path + "'",
+                     toggle.drive == Drive::Physics ? "changes nothing: it was simulated already"
+                                                    : "changes nothing: no node at or below it was simulated",
+                     "leave it out, or name another node or time"});
+  return notes;
 }
 
 }  // namespace pantin::cli

@@ -21,7 +21,7 @@ struct PlannedToggle {
 [[nodiscard]] std::vector<PlannedToggle> assign_drives(const RunOptions& options, RunWorld& world,
                                                        Ledger& ledger);
 
-/// Carries one out now: with the node go all below it.
-[[nodiscard]] std::vector<Diagnostic> carry_out(Bridge& bridge, const PlannedToggle& toggle);
+/// Carries one out now: with the node go all below it. A warning where that changes nothing.
+[[nodiscard]] std::vector<Diagnostic> carry_out(RunWorld& world, const PlannedToggle& toggle);
 
 }  // namespace pantin::cli

@@ -67,7 +67,7 @@ class Run {
     while (next_toggle_ < job_.toggles.size() && job_.toggles[next_toggle_].time <= time + slack_) {
       const PlannedToggle& toggle = job_.toggles[next_toggle_++];
       if (next_toggle_ == first + 1) watch_.see(job_.world.physics.energy());
-      job_.ledger.add(cli::carry_out(job_.world.bridge, toggle));
+      job_.ledger.add(cli::carry_out(job_.world, toggle));
       if (!continues()) return false;
       ++outcome_.summary.toggles;
       if (job_.on_toggle) job_.on_toggle(toggle);

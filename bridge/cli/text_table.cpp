@@ -10,6 +10,8 @@
 namespace pantin::cli {
 namespace {
 
+constexpr std::size_t kWidestPadding = 80;  // longer cells stand out rather than widen all rows
+
 /// Characters on the screen: bytes that do not continue a UTF-8 sequence.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
@@ -44,14 +46,14 @@ void TextTable::print(std::ostream& out, const std::string& indent) const {
     widths.resize(std::max(widths.size(), row.size()), 0);
     for (std::size_t i = 0; i < row.size(); ++i) {
       row[i] = printable(row[i]);
-      widths[i] = std::max(widths[i], width_of(row[i]));
+      widths[i] = std::max(widths[i], std::min(width_of(row[i]), kWidestPadding));
     }
   }
   for (const std::vector<std::string>& row : shown) {
     std::string line = indent;
     for (std::size_t i = 0; i < row.size(); ++i) {
       line += row[i];
-      if (i + 1 < row.size()) line.append(widths[i] - width_of(row[i]) + 2, ' ');
+      if (i + 1 < row.size()) line.append(widths[i] - std::min(width_of(row[i]), widths[i]) + 2, ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
     out << line << '\n';

@@ -13,7 +13,8 @@ namespace pantin::cli {
 /// "1 body", "2 bodies": `plural` is the whole word.
 [[nodiscard]] std::string counted(std::size_t count, const char* singular, const char* plural);
 
-/// Rows of cells; all columns but the last are padded to the widest cell. Control characters are escaped.
+/// Rows of cells; all columns but the last are padded to the widest cell, up to 80 characters. Control
+/// characters are escaped.
 class TextTable {
  public:
   void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }

@@ -114,6 +114,18 @@ TEST(Drives, ToggleAtTimeZeroAndAtTheEnd) {
   EXPECT_EQ(cart_at(result, 1)["drive"], "animated");
 }
 
+TEST(Drives, SayWhenAToggleChangesNothing) {
+  // What is animated stays animated, what is simulated stays simulated: most likely a slip of the user's.
+  const Folder folder;
+  const std::string file = folder.write("cart.gltf", cart_gltf());
+  const Json animated = run({file, "--toggle", "0.1:track/cart=animated", "--duration", "0.2"});
+  EXPECT_NE(animated["ledger"].dump().find("changes nothing: no node at or below it was simulated"),
+            std::string::npos);
+  const Json simulated =
+      run({file, "--simulate", "track/cart", "--toggle", "0.1:track/cart=simulated", "--duration", "0.2"});
+  EXPECT_NE(simulated["ledger"].dump().find("changes nothing: it was simulated already"), std::string::npos);
+}
+
 TEST(Drives, MeasureTheDriftAfreshAfterAToggle) {
   // Handing over adds the cart's energy at once; that is no drift of the integrator.
   const Folder folder;
