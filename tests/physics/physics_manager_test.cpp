@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "support/allocation_guard.hpp"
 #include "support/contracts.hpp"
@@ -16,16 +15,7 @@ namespace {
 using test::joint_here;
 using test::lopsided_mass;
 using test::run;
-
-RigidBodySettings thrown_body() {
-  RigidBodySettings s;
-  s.name = "thrown";
-  s.X_WB = {{1, 2, 3}, Quaternion{Eigen::AngleAxisd{0.7, Vector3{1, 2, -1}.normalized()}}};
-  s.v_WBcm = {2, -1, 4};
-  s.w_WB = {3, -5, 2};
-  s.mass = lopsided_mass(2.5);
-  return s;
-}
+using test::thrown_body;
 
 TEST(PhysicsManager, GivesTheAbsoluteMatrixFromCentreOfGravityAndRotation) {
   // By definition the body origin is Pos - R * GravityCenter; a round trip through add must give the pose
@@ -144,26 +134,6 @@ TEST(PhysicsManager, LeavesIdleBodiesUntouched) {
     EXPECT_EQ(physics.body(b).p_WBcm(), start.bodies[i].p_WBcm);
     EXPECT_EQ(physics.body(b).q_WB().coeffs(), start.bodies[i].q_WB.coeffs());
   }
-}
-
-TEST(PhysicsManager, RewindsBitForBit) {
-  // The state is everything that is integrated: from an equal state follow equal bits.
-  PhysicsManager physics;
-  physics.forces().add(Gravity{});
-  const BodyId a = physics.add(thrown_body());
-  const BodyId b = physics.add(RigidBodySettings{.name = "b", .X_WB = {{1, 2, 4}}, .mass = lopsided_mass()});
-  physics.add(joint_here<BallSettings>(physics, a, b, {{1, 2, 3.5}, Quaternion::Identity()}));
-  ASSERT_TRUE(run(physics, 0.01, 20));
-  physics.apply_force(b, {0, 3, 0});
-  physics.apply_impulse(a, {1, 0, 0});
-  const State middle = physics.snapshot();
-  ASSERT_TRUE(run(physics, 0.01, 30));
-  const State first = physics.snapshot();
-  physics.restore(middle);
-  ASSERT_TRUE(run(physics, 0.01, 30));
-  EXPECT_TRUE(physics.snapshot() == first);
-  EXPECT_EQ(hash(physics.snapshot()), hash(first));
-  EXPECT_NE(hash(middle), hash(first));
 }
 
 /// Pushes a body with a force that is not a number once it is past a height.
@@ -291,26 +261,6 @@ TEST(PhysicsManager, AllocatesNothingInASteadyStep) {
     EXPECT_EQ(allocations, 0u) << name;
     EXPECT_TRUE(ok);
   }
-}
-
-TEST(PhysicsManager, KeepsManagersInTwoThreadsApart) {
-  // Two managers share nothing: run side by side they give the bits that each gives alone (and no race under
-  // tsan).
-  const auto simulate = [](State& out) {
-    PhysicsManager physics;
-    physics.forces().add(Gravity{});
-    const BodyId a = physics.add(thrown_body());
-    physics.add(joint_here<BallSettings>(physics, BodyId{}, a, {{1, 2, 4}, Quaternion::Identity()}));
-    static_cast<void>(run(physics, 0.01, 100));
-    out = physics.snapshot();
-  };
-  State alone, first, second;
-  simulate(alone);
-  std::thread other{simulate, std::ref(first)};
-  simulate(second);
-  other.join();
-  EXPECT_TRUE(first == alone);
-  EXPECT_TRUE(second == alone);
 }
 
 }  // namespace

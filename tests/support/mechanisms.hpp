@@ -22,6 +22,17 @@ inline MassProperties lopsided_mass(double mass = 1) {
   return m;
 }
 
+/// A body that moves and turns about no axis of symmetry.
+inline RigidBodySettings thrown_body() {
+  RigidBodySettings s;
+  s.name = "thrown";
+  s.X_WB = {{1, 2, 3}, Quaternion{Eigen::AngleAxisd{0.7, Vector3{1, 2, -1}.normalized()}}};
+  s.v_WBcm = {2, -1, 4};
+  s.w_WB = {3, -5, 2};
+  s.mass = lopsided_mass(2.5);
+  return s;
+}
+
 /// Quaternion that turns z onto `axis`.
 inline Quaternion facing(const Vector3& axis) { return Quaternion::FromTwoVectors(Vector3::UnitZ(), axis); }
 
