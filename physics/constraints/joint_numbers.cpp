@@ -123,9 +123,16 @@ JointDrift ConstraintManager::drift(const BodyStore& bodies) const {
   JointDrift drift;
   for (const auto& joint : joints_) {
     const Pose X = relative_pose(bodies, *joint);
-    Pose wanted;
+    const auto miss = [&X](const Pose& wanted) {
+      return JointDrift{(X.p - wanted.p).norm(), X.q.angularDistance(wanted.q)};
+    };
+    JointDrift here;
     if (joint->kind == JointKind::Driven) {
-      wanted = joint->driver->motion(bodies.state.time, Side::Before).X_AB;
+      // Where the driven motion jumps, the bodies stand on either side of the jump.
+      const double t = bodies.state.time;
+      const JointDrift before = miss(joint->driver->motion(t, Side::Before).X_AB);
+      const JointDrift after = miss(joint->driver->motion(t, Side::After).X_AB);
+      here = before.distance + before.angle < after.distance + after.angle ? before : after;
     } else {
       with_model(joint->kind, [&](auto model) {
         double q[kMostCoordinates] = {1};
@@ -134,11 +141,11 @@ JointDrift ConstraintManager::drift(const BodyStore& bodies) const {
         kernel::Vec3<double> p;
         decltype(model)::place(q, R, p);
         const Matrix3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.m);
-        wanted = {{p.x, p.y, p.z}, Quaternion{rotation}};
+        here = miss({{p.x, p.y, p.z}, Quaternion{rotation}});
       });
     }
-    drift.distance = std::max(drift.distance, (X.p - wanted.p).norm());
-    drift.angle = std::max(drift.angle, X.q.angularDistance(wanted.q));
+    drift.distance = std::max(drift.distance, here.distance);
+    drift.angle = std::max(drift.angle, here.angle);
   }
   return drift;
 }

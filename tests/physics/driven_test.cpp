@@ -140,6 +140,24 @@ TEST(Driven, JumpsInVelocityAreImpulses) {
   EXPECT_NEAR(momenta_of(physics).linear.norm(), 0, 1e-14);
 }
 
+TEST(Driven, HasNoDriftOnEitherSideOfAJump) {
+  // At the seam of a looping motion the body stands where the motion begins or where it ended: neither is
+  // drift.
+  PhysicsManager physics;
+  const BodyId a = physics.add(RigidBodySettings{.name = "a", .mass = lopsided_mass()});
+  const BodyId b = physics.add(RigidBodySettings{.name = "b", .mass = lopsided_mass()});
+  physics.add(
+      DrivenSettings{.a = a, .b = b, .driver = std::make_unique<FunctionDriver>([](double t, Side side) {
+                                       RigidMotion m;
+                                       m.X_AB.p = {t == 0 && side == Side::Before ? 1.0 : t, 0, 0};
+                                       m.v_AB = {1, 0, 0};
+                                       return m;
+                                     })});
+  EXPECT_EQ(physics.joint_drift().distance, 0);
+  ASSERT_TRUE(run(physics, 0.01, 3));
+  EXPECT_LT(physics.joint_drift().distance, 1e-15);
+}
+
 TEST(Driven, AnimatedGroundFeelsLikeGravity) {
   // A pendulum on a base with constant acceleration a moves, seen from the base, like one under gravity g -
   // a.
