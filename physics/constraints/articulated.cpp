@@ -77,7 +77,7 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
     } else {
       with_model(link.kind, [&](auto model) {
         using Model = decltype(model);
-        Model::place(&q[0] + link.q, R_rel, p_rel);
+        Model::place(q.data() + link.q, R_rel, p_rel);
         Vec* S_a = S_a_.data() + link.v;
         Vec* S_l = S_l_.data() + link.v;
         Model::columns(R_rel, S_a, S_l);
