@@ -3,6 +3,7 @@
 #include <unordered_set>
 
 #include <pantin/bridge/bridge_impl.hpp>
+#include <pantin/bridge/links_to_joints.hpp>
 #include <pantin/scenegraph/expects.hpp>
 
 namespace pantin {
@@ -128,7 +129,7 @@ void Bridge::set_link_value(NodeId id, const LinkValue& value) {
     set_local(id, local_matrix(*link, value));
     bridge.scene.note_link_value(id, value);
   } else if (binding->drive == Drive::Physics && binding->tie.kind == Tie::Kind::Link && value.size() > 0) {
-    bridge.physics.set_joint_value(binding->joint, joint_numbers(value, *binding));
+    bridge.physics.set_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value));
     bridge.sync_out(nullptr);
   } else if (value.size() > 0) {
     const Affine M_WN = bridge.scene.world(bridge.scene.parent(id)) * local_matrix(*link, value);

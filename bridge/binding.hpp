@@ -1,5 +1,6 @@
 #pragma once
 // Private to bridge. What is known of a bound node: its body, who writes it, what it hangs on.
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -36,12 +37,12 @@ struct Binding {
   Binding* simulated_above{nullptr};  ///< nearest simulated one
 
   Tie tie{};
-  double metres_per_value{1};  ///< of a slider under a scaled parent
+  std::array<double, 3> metres_per_value{1, 1, 1};  ///< by number of the link's value (links_to_joints.hpp)
 
   MassProperties own_mass{0, Vector3::Zero(), Matrix3::Zero()};  ///< in B, as derived; before composites
   double density{1000};                                          ///< it was derived with [kg/m^3]
-  bool shares_mass{false};  ///< a body fixed to it carries its mass, or it carries theirs
-  double pending_turns{0};  ///< pivot's value to be told to physics [rad]; 0 = nothing
+  bool shares_mass{false};                   ///< a body fixed to it carries its mass, or it carries theirs
+  std::optional<LinkValue> pending_turns{};  ///< with whole turns, to be told to physics
 
   std::unique_ptr<NodeMotion> motion{
       std::make_unique<NodeMotion>()};  ///< drive Scene; physics' drivers point to it

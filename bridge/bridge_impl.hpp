@@ -151,9 +151,4 @@ struct Bridge::Impl {
   bool order_is_stale_{true};
 };
 
-/// The joint's numbers as a value of the link, and back.
-[[nodiscard]] LinkValue link_value(const JointNumbers& numbers, const Binding& binding,
-                                   const LinkValue& near);
-[[nodiscard]] JointNumbers joint_numbers(const LinkValue& value, const Binding& binding);
-
 }  // namespace pantin

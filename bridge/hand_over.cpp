@@ -131,8 +131,9 @@ class Bridge::Impl::HandOver {
     int limits = 0, mimics = 0;
     for (const Planned& planned : plan_) {
       const Link* link = bridge_.scene.link(planned.node);
-      if (link == nullptr || (link->kind != LinkKind::Pivot && link->kind != LinkKind::Slider)) continue;
-      limits += std::isfinite(link->lower) || std::isfinite(link->upper);
+      if (link == nullptr) continue;
+      limits += std::any_of(link->limits.begin(), link->limits.begin() + limit_count(link->kind),
+                            [](const LinkLimits& given) { return given != LinkLimits{}; });
       mimics += link->mimic.has_value();
     }
     const auto warn = [&](int count, const char* what, const char* remedy) {

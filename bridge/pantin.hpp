@@ -12,11 +12,15 @@
 
 #include <pantin/physics/bodies_at.hpp>
 #include <pantin/physics/constraints/ball.hpp>
+#include <pantin/physics/constraints/cylindrical.hpp>
 #include <pantin/physics/constraints/driven.hpp>
 #include <pantin/physics/constraints/fixed.hpp>
 #include <pantin/physics/constraints/joint.hpp>
 #include <pantin/physics/constraints/pivot.hpp>
+#include <pantin/physics/constraints/planar.hpp>
+#include <pantin/physics/constraints/screw.hpp>
 #include <pantin/physics/constraints/slider.hpp>
+#include <pantin/physics/constraints/universal.hpp>
 #include <pantin/physics/driver.hpp>
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/forces/constant_load.hpp>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pantin/bridge/bridge_impl.hpp>
+#include <pantin/bridge/links_to_joints.hpp>
 
 namespace pantin {
 namespace {
@@ -124,9 +125,10 @@ void Bridge::Impl::jump_to_trajectory(Binding& binding) {
 // Physics measures angles from poses; whole turns have to be told.
 void Bridge::Impl::tell_turns(std::span<Binding* const> affected) {
   for (Binding* binding : affected) {
-    if (binding->pending_turns == 0) continue;
-    physics.set_joint_value(binding->joint, binding->pending_turns);
-    binding->pending_turns = 0;
+    if (!binding->pending_turns) continue;
+    physics.set_joint_value(binding->joint,
+                            joint_numbers(*binding->pending_turns, binding->metres_per_value));
+    binding->pending_turns.reset();
   }
 }
 

@@ -11,25 +11,6 @@ namespace {
 constexpr double kSameResidual = 1e-9;  // relative: what users' products of matrices may round
 constexpr double kKeptByJoint = 1e-6;   // [m], [rad]: a pose that misses its joint by more is reported
 
-/// Distance [m] and angle [rad] by which B would leave its joint if its joint frame were at X in A's.
-double miss_of(JointKind kind, const Pose& X) {
-  const Vector3 z = X.q * Vector3::UnitZ();
-  const double tilt = z.cross(Vector3::UnitZ()).norm() + (z.z() < 0 ? 1 : 0);
-  const double turn = rotation_vector(X.q).norm();
-  switch (kind) {
-    case JointKind::Pivot:
-      return std::max(X.p.norm(), tilt);
-    case JointKind::Slider:
-      return std::max(X.p.head<2>().norm(), turn);
-    case JointKind::Ball:
-      return X.p.norm();
-    case JointKind::Fixed:
-      return std::max(X.p.norm(), turn);
-    default:
-      return 0;
-  }
-}
-
 }  // namespace
 
 /// One teleport.
@@ -122,7 +103,8 @@ class Bridge::Impl::Teleport {
   void judge_joint(const Binding& binding, const Pose& X_WB) {
     const JointDefinition& joint = bridge_.physics.joint(binding.joint);
     const Pose X_WA = joint.a ? bridge_.physics.body(joint.a).X_WB() : Pose{};
-    if (miss_of(joint.kind, inverse(X_WA * joint.X_AJ) * (X_WB * joint.X_BJ)) <= kKeptByJoint) return;
+    const JointDrift miss = joint_miss(joint, inverse(X_WA * joint.X_AJ) * (X_WB * joint.X_BJ));
+    if (std::max(miss.distance, miss.angle) <= kKeptByJoint) return;
     notes_.push_back(
         bridge_.note(Severity::Warning, binding.node,
                      "its joint '" + joint.name + "' does not allow this place; it is brought back to it",

@@ -11,6 +11,24 @@ namespace {
 
 constexpr double kMisfit = 1e-6;  // of a link's local matrix: above it, the user is told
 
+/// Whether an angle of the value is beyond half a turn, so that physics cannot see it in the poses. A screw's
+/// turns are seen in its place.
+bool has_turns(LinkKind kind, const LinkValue& value) {
+  const auto beyond = [&value](int i) { return std::abs(value[i]) > std::numbers::pi; };
+  switch (kind) {
+    case LinkKind::Pivot:
+    case LinkKind::Cylindrical:
+    case LinkKind::Screw:
+      return beyond(0);
+    case LinkKind::Universal:
+      return beyond(0) || beyond(1);
+    case LinkKind::Planar:
+      return beyond(2);
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 Tie Bridge::Impl::wanted_tie(const Binding& binding) const {
@@ -72,7 +90,7 @@ void Bridge::Impl::tie_by_link(Binding& binding, std::vector<Diagnostic>& notes)
   const auto body = node_bodies.find(binding.node);
   joint->definition.a = binding.tie.to;
   joint->definition.b = binding.body;
-  joint->definition.damping = body == node_bodies.end() ? 0 : body->second.joint_damping;
+  if (body != node_bodies.end()) joint->definition.damping.fill(body->second.joint_damping);
   if (joint->definition.name.empty()) joint->definition.name = scene.path(binding.node);
   if (const std::optional<SettingsProblem> problem = problem_with(joint->definition)) {
     binding.tie = {};
@@ -82,31 +100,7 @@ void Bridge::Impl::tie_by_link(Binding& binding, std::vector<Diagnostic>& notes)
   binding.metres_per_value = joint->metres_per_value;
   binding.joint = physics.add_joint(std::move(joint->definition));
   scene.note_link_value(binding.node, joint->value);
-  if (link.kind == LinkKind::Pivot && std::abs(joint->value[0]) > std::numbers::pi) {
-    binding.pending_turns = joint->value[0];
-  }
-}
-
-LinkValue link_value(const JointNumbers& numbers, const Binding& binding, const LinkValue& near) {
-  switch (binding.tie.link) {
-    case LinkKind::Pivot:
-      return numbers[0];
-    case LinkKind::Slider:
-      return numbers[0] / binding.metres_per_value;
-    case LinkKind::Ball: {
-      double along = 0;
-      for (int i = 0; i < 4; ++i) along += numbers[i] * near[i];
-      const double sign = along < 0 ? -1 : 1;
-      return {sign * numbers[0], sign * numbers[1], sign * numbers[2], sign * numbers[3]};
-    }
-    default:
-      return {};
-  }
-}
-
-JointNumbers joint_numbers(const LinkValue& value, const Binding& binding) {
-  if (binding.tie.link == LinkKind::Slider) return value[0] * binding.metres_per_value;
-  return JointNumbers{value.numbers()};
+  if (has_turns(link.kind, joint->value)) binding.pending_turns = joint->value;
 }
 
 void Bridge::Impl::note_link_value(const Binding& binding) {
@@ -116,7 +110,8 @@ void Bridge::Impl::note_link_value(const Binding& binding) {
     scene.note_link_value(binding.node, fit_link(*link, scene.local(binding.node), link->value).value);
   } else if (binding.tie.kind == Tie::Kind::Link && value_size(link->kind) > 0 &&
              physics.contains(binding.joint)) {
-    scene.note_link_value(binding.node, link_value(physics.joint_value(binding.joint), binding, link->value));
+    scene.note_link_value(
+        binding.node, link_value(physics.joint_value(binding.joint), binding.metres_per_value, link->value));
   }
 }
 

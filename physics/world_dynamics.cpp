@@ -112,7 +112,7 @@ void WorldDynamics::tree_rates(std::span<const double> q, std::span<const double
   const double* v0 = v.data() + (v.size() - layout.rates);
   double* out = q_dot.data() + (q_dot.size() - layout.coordinates);
   for (const TreeLink& link : layout.links) {
-    with_model(link.kind, [&](auto model) { decltype(model)::rate(q0 + link.q, v0 + link.v, out + link.q); });
+    with_model(link, [&](auto model) { model.rate(q0 + link.q, v0 + link.v, out + link.q); });
   }
 }
 
@@ -191,7 +191,7 @@ void WorldDynamics::normalise(std::span<double> q_all) const {
   }
   const double* before = bodies_.state.coordinates.data();
   for (const TreeLink& link : constraints_.layout().links) {
-    with_model(link.kind, [&](auto model) {
+    with_model(link, [&](auto model) {
       using Model = decltype(model);
       if (!std::equal(q + link.q, q + link.q + Model::kCoordinates, before + link.q))
         Model::normalise(q + link.q);

@@ -2,6 +2,7 @@
 // A link says how a node moves against its parent: which kind, about which axis, where zero is, how far, and
 // the present value. It turns a value into a local matrix and a local matrix back into a value. It is
 // geometry only: no mass, no force; the bridge makes a physics joint of it when the node is simulated.
+#include <array>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -14,16 +15,26 @@
 namespace pantin {
 
 enum class LinkKind {
-  Fixed,   ///< no motion, no value
-  Pivot,   ///< rotation about `axis`; value: angle [rad], right-hand rule
-  Slider,  ///< translation along `axis`; value: distance [m]
-  Ball,    ///< free rotation; value: unit quaternion (w, x, y, z) of N in J
-  Free,    ///< anything rigid; value: translation (x, y, z) [m], then unit quaternion (w, x, y, z)
+  Fixed,        ///< no motion, no value
+  Pivot,        ///< rotation about `axis`; value: angle [rad], right-hand rule
+  Slider,       ///< translation along `axis`; value: distance [m]
+  Ball,         ///< free rotation; value: unit quaternion (w, x, y, z) of N in J
+  Cylindrical,  ///< rotation about `axis` and translation along it; value: angle [rad], distance [m]
+  Universal,    ///< rotation about `axis`, then about `axis2`, which it carries; value: two angles [rad]
+  Planar,       ///< translation across `axis` and rotation about it; value: distances along `axis2` and along
+                ///< axis x axis2 [m], angle [rad]
+  Screw,        ///< rotation about `axis`, which moves along it by `pitch`; value: angle [rad]
+  Free,         ///< anything rigid; value: translation (x, y, z) [m], then unit quaternion (w, x, y, z)
 };
 
-/// How many numbers a value of this kind has: 0, 1, 1, 4, 7.
+/// How many numbers a value of this kind has: 0, 1, 1, 4, 2, 2, 3, 1, 7.
 [[nodiscard]] int value_size(LinkKind kind) noexcept;
-/// Lower-case name as used in JSON: "fixed", "pivot", "slider", "ball", "free".
+/// How many numbers of its value may have limits: those that are not a quaternion; none of a Free link.
+[[nodiscard]] int limit_count(LinkKind kind) noexcept;
+[[nodiscard]] bool has_axis(LinkKind kind) noexcept;   ///< all but Fixed, Ball and Free
+[[nodiscard]] bool has_axis2(LinkKind kind) noexcept;  ///< Universal and Planar
+/// Lower-case name as used in JSON: "fixed", "pivot", "slider", "ball", "cylindrical", "universal", "planar",
+/// "screw", "free".
 [[nodiscard]] std::string_view to_string(LinkKind kind) noexcept;
 
 /// The numbers of a link's value; how many and what they mean depends on the kind.
@@ -57,18 +68,32 @@ struct LinkMimic {
   double offset{0};  ///< [rad] or [m]
 };
 
+/// The range of one number of a value: lower <= upper.
+struct LinkLimits {
+  double lower{-std::numeric_limits<double>::infinity()};  ///< [rad] or [m]
+  double upper{std::numeric_limits<double>::infinity()};   ///< [rad] or [m]
+  [[nodiscard]] bool contain(double number) const noexcept { return lower <= number && number <= upper; }
+  friend bool operator==(const LinkLimits&, const LinkLimits&) = default;
+};
+
 /// M_PN(value) = M_PJ * T(value) * M_JN. Zero is where T is the identity.
 struct Link {
   LinkKind kind{LinkKind::Fixed};
-  std::string name{};                                      ///< may be empty
-  Affine M_PJ{Affine::Identity()};                         ///< joint frame in the parent node
-  Affine M_JN{Affine::Identity()};                         ///< node in the moved joint frame; not singular
-  Vector3 axis{Vector3::UnitZ()};                          ///< unit, in J; for Pivot and Slider
-  double lower{-std::numeric_limits<double>::infinity()};  ///< [rad] or [m]; lower <= upper; Pivot and Slider
-  double upper{std::numeric_limits<double>::infinity()};   ///< [rad] or [m]
-  std::optional<LinkMimic> mimic{};                        ///< Pivot and Slider only
-  LinkValue value{};                                       ///< present value; its size fits the kind
+  std::string name{};                  ///< may be empty
+  Affine M_PJ{Affine::Identity()};     ///< joint frame in the parent node
+  Affine M_JN{Affine::Identity()};     ///< node in the moved joint frame; not singular
+  Vector3 axis{Vector3::UnitZ()};      ///< unit, in J; where has_axis(kind)
+  Vector3 axis2{Vector3::UnitX()};     ///< unit, in J, perpendicular to axis; where has_axis2(kind)
+  double pitch{0};                     ///< [m/rad], any sign; Screw only
+  std::array<LinkLimits, 3> limits{};  ///< by number of the value; the first limit_count(kind) count
+  std::optional<LinkMimic> mimic{};    ///< kinds whose value is one number
+  LinkValue value{};                   ///< present value; its size fits the kind
 };
+
+/// The same link counted from elsewhere: where the given one has the value v, the result has v + offset, at
+/// the same matrix, with limits and mimic shifted alike. For kinds without quaternion; as many numbers as a
+/// value.
+[[nodiscard]] Link with_zero_offset(Link link, const LinkValue& offset);
 
 /// What is wrong with a value for a link of this kind (count, not finite, quaternion of length 0); empty if
 /// nothing is.
@@ -87,9 +112,10 @@ struct LinkFit {
 };
 
 /// The value at which T is nearest to inverse(M_PJ) * M_PN * inverse(M_JN), least squares over its entries:
-/// rotation and translation each by themselves. A pivot's angle is the one nearest to `near`, so that whole
-/// turns are kept; a quaternion has the sign nearest to `near`. `near` must fit the kind; where the matrix
-/// says nothing about the angle (a flip about another axis), it is `near` itself. Limits are not applied.
+/// rotation and translation each by themselves, but together for a Screw. Angles are those nearest to `near`,
+/// so that whole turns are kept (a Screw's turns are read from its translation, unless its pitch is 0); a
+/// quaternion has the sign nearest to `near`. `near` must fit the kind; where the matrix says nothing about
+/// the angle (a flip about another axis), it is `near` itself. Limits are not applied.
 [[nodiscard]] LinkFit fit_link(const Link& link, const Affine& M_PN, const LinkValue& near);
 
 }  // namespace pantin

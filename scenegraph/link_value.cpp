@@ -12,7 +12,13 @@ int value_size(LinkKind kind) noexcept {
       return 0;
     case LinkKind::Pivot:
     case LinkKind::Slider:
+    case LinkKind::Screw:
       return 1;
+    case LinkKind::Cylindrical:
+    case LinkKind::Universal:
+      return 2;
+    case LinkKind::Planar:
+      return 3;
     case LinkKind::Ball:
       return 4;
     case LinkKind::Free:
@@ -20,6 +26,14 @@ int value_size(LinkKind kind) noexcept {
   }
   return 0;
 }
+
+int limit_count(LinkKind kind) noexcept { return has_axis(kind) ? value_size(kind) : 0; }
+
+bool has_axis(LinkKind kind) noexcept {
+  return kind != LinkKind::Fixed && kind != LinkKind::Ball && kind != LinkKind::Free;
+}
+
+bool has_axis2(LinkKind kind) noexcept { return kind == LinkKind::Universal || kind == LinkKind::Planar; }
 
 std::string_view to_string(LinkKind kind) noexcept {
   switch (kind) {
@@ -31,6 +45,14 @@ std::string_view to_string(LinkKind kind) noexcept {
       return "slider";
     case LinkKind::Ball:
       return "ball";
+    case LinkKind::Cylindrical:
+      return "cylindrical";
+    case LinkKind::Universal:
+      return "universal";
+    case LinkKind::Planar:
+      return "planar";
+    case LinkKind::Screw:
+      return "screw";
     case LinkKind::Free:
       return "free";
   }
@@ -53,7 +75,13 @@ LinkValue zero_value(LinkKind kind) {
       return {};
     case LinkKind::Pivot:
     case LinkKind::Slider:
+    case LinkKind::Screw:
       return LinkValue{0.0};
+    case LinkKind::Cylindrical:
+    case LinkKind::Universal:
+      return {0, 0};
+    case LinkKind::Planar:
+      return {0, 0, 0};
     case LinkKind::Ball:
       return {1, 0, 0, 0};
     case LinkKind::Free:

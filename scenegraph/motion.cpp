@@ -44,15 +44,30 @@ VectorMotion vector_at(const TrackSample& sample) {
   return {Vector3{sample.value.data()}, Vector3{sample.first.data()}, Vector3{sample.second.data()}};
 }
 
-RotationMotion pivot_at(const Vector3& axis, const TrackSample& sample) {
+/// Rotation about a fixed axis by the sample's number at `i`.
+RotationMotion pivot_at(const Vector3& axis, const TrackSample& sample, std::size_t i) {
   RotationMotion R;
-  R.value = Eigen::AngleAxisd{sample.value[0], axis}.toRotationMatrix();
+  R.value = Eigen::AngleAxisd{sample.value[i], axis}.toRotationMatrix();
   Matrix3 K;
   K << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
-  const double rate = sample.first[0];
+  const double rate = sample.first[i];
   R.first = rate * K * R.value;
-  R.second = (sample.second[0] * K + rate * rate * K * K) * R.value;
+  R.second = (sample.second[i] * K + rate * rate * K * K) * R.value;
   return R;
+}
+
+/// Translation along a fixed direction by the sample's number at `i`.
+VectorMotion slide_at(const Vector3& direction, const TrackSample& sample, std::size_t i) {
+  return {sample.value[i] * direction, sample.first[i] * direction, sample.second[i] * direction};
+}
+
+VectorMotion operator+(const VectorMotion& a, const VectorMotion& b) {
+  return {a.value + b.value, a.first + b.first, a.second + b.second};
+}
+
+RotationMotion operator*(const RotationMotion& a, const RotationMotion& b) {
+  return {a.value * b.value, a.first * b.value + a.value * b.first,
+          a.second * b.value + 2 * a.first * b.first + a.value * b.second};
 }
 
 /// M_PJ * [R t; 0 0] * M_JN for a derivative of T, whose lower row is 0.
@@ -92,13 +107,28 @@ LocalMotion link_motion(const Link& link, const TrackSample& sample) {
     case LinkKind::Fixed:
       break;
     case LinkKind::Pivot:
-      R = pivot_at(link.axis, sample);
+      R = pivot_at(link.axis, sample, 0);
       break;
     case LinkKind::Slider:
-      t = {sample.value[0] * link.axis, sample.first[0] * link.axis, sample.second[0] * link.axis};
+      t = slide_at(link.axis, sample, 0);
       break;
     case LinkKind::Ball:
       R = rotation_at(sample, 0);
+      break;
+    case LinkKind::Cylindrical:
+      R = pivot_at(link.axis, sample, 0);
+      t = slide_at(link.axis, sample, 1);
+      break;
+    case LinkKind::Universal:
+      R = pivot_at(link.axis, sample, 0) * pivot_at(link.axis2, sample, 1);
+      break;
+    case LinkKind::Planar:
+      R = pivot_at(link.axis, sample, 2);
+      t = slide_at(link.axis2, sample, 0) + slide_at(link.axis.cross(link.axis2), sample, 1);
+      break;
+    case LinkKind::Screw:
+      R = pivot_at(link.axis, sample, 0);
+      t = slide_at(link.pitch * link.axis, sample, 0);
       break;
     case LinkKind::Free:
       t = vector_at(sample);

@@ -20,7 +20,7 @@ std::string problem_with_width(const Track& track) {
     case Channel::Scale:
       return width == 3 ? "" : "a scale has width 3 " + has;
     case Channel::LinkValue:
-      return width == 1 || width == 4 || width == 7 ? "" : "a link value has width 1, 4 or 7 " + has;
+      return (width >= 1 && width <= 4) || width == 7 ? "" : "a link value has width 1, 2, 3, 4 or 7 " + has;
   }
   return "unknown channel";
 }

@@ -152,13 +152,16 @@ void hold(const Track& track, std::size_t k, TrackSample& out) {
 }  // namespace
 
 std::span<const TrackPart> parts_of(const Track& track) noexcept {
-  static constexpr TrackPart kNumbers[] = {{0, 1, false}};
+  static constexpr TrackPart kNumber[] = {{0, 1, false}};
+  static constexpr TrackPart kTwo[] = {{0, 2, false}};
   static constexpr TrackPart kVector[] = {{0, 3, false}};
   static constexpr TrackPart kRotation[] = {{0, 4, true}};
   static constexpr TrackPart kPose[] = {{0, 3, false}, {3, 4, true}};
   switch (track.width) {
     case 1:
-      return kNumbers;
+      return kNumber;
+    case 2:
+      return kTwo;
     case 3:
       return kVector;
     case 4:

@@ -37,7 +37,14 @@ std::optional<LinkValue> value_for(const Link& link, const std::vector<double>& 
 std::string wanted_of(LinkKind kind) {
   switch (kind) {
     case LinkKind::Pivot:
+    case LinkKind::Screw:
       return "give one angle in rad";
+    case LinkKind::Cylindrical:
+      return "give an angle in rad and a distance in m: angle,distance";
+    case LinkKind::Universal:
+      return "give two angles in rad: first,second";
+    case LinkKind::Planar:
+      return "give x,y in m and an angle in rad";
     case LinkKind::Slider:
       return "give one distance in m";
     case LinkKind::Ball:
@@ -76,13 +83,16 @@ std::vector<Diagnostic> resolve(const Scene& scene, const LinkKeys& keys, const 
 void judge_limits(const Scene& scene, const LinkKeys& keys, const Setting& setting,
                   std::vector<Diagnostic>& notes) {
   const Link& link = *scene.link(setting.node);
-  if (setting.value.size() != 1) return;
-  const double value = setting.value[0];
-  if (value >= link.lower && value <= link.upper) return;
-  notes.push_back({Severity::Warning, "command line", "joint '" + keys.key(setting.node) + "'",
-                   "the value " + short_number(value) + " is outside the limits " + short_number(link.lower) +
-                       " to " + short_number(link.upper) + "; it was set nevertheless",
-                   "give a value within the limits"});
+  for (int i = 0; i < limit_count(link.kind); ++i) {
+    const double value = setting.value[i];
+    const LinkLimits& limits = link.limits[static_cast<std::size_t>(i)];
+    if (limits.contain(value)) continue;
+    notes.push_back({Severity::Warning, "command line", "joint '" + keys.key(setting.node) + "'",
+                     "the value " + short_number(value) + " is outside the limits " +
+                         short_number(limits.lower) + " to " + short_number(limits.upper) +
+                         "; it was set nevertheless",
+                     "give a value within the limits"});
+  }
 }
 
 /// Sets what follows the named links, breadth first, each once.

@@ -16,9 +16,14 @@ std::string joined(std::span<const double> numbers) {
 }
 
 std::string range_of(const Link& link) {
-  if (link.kind != LinkKind::Pivot && link.kind != LinkKind::Slider) return "";
-  if (std::isinf(link.lower) && std::isinf(link.upper)) return "unlimited";
-  return short_number(link.lower) + " .. " + short_number(link.upper);
+  std::string text;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(limit_count(link.kind)); ++i) {
+    const LinkLimits& limits = link.limits[i];
+    text += i == 0 ? "" : ", ";
+    if (limits == LinkLimits{}) text += "unlimited";
+    else text += short_number(limits.lower) + " .. " + short_number(limits.upper);
+  }
+  return text;
 }
 
 std::string link_of(const ModelNode& node) {

@@ -60,8 +60,7 @@ Link link_of(const urdf::Joint& joint, JointType type) {
             .value = zero_value(kind_of(type))};
   if (has_value(type)) link.axis = vector_of(joint.axis).normalized();
   if (has_value(type) && type != JointType::Continuous && joint.limits) {
-    link.lower = joint.limits->lower;
-    link.upper = joint.limits->upper;
+    link.limits[0] = {joint.limits->lower, joint.limits->upper};
   }
   if (joint.mimic) {
     link.mimic = LinkMimic{joint.mimic->joint_name, joint.mimic->multiplier, joint.mimic->offset};

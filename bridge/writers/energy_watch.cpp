@@ -10,8 +10,8 @@ bool conserves_energy(const PhysicsManager& physics) {
   const std::vector<JointId> joints = physics.joints();
   return std::none_of(joints.begin(), joints.end(), [&](JointId id) {
     const JointDefinition& joint = physics.joint(id);
-    return joint.damping > 0 || joint.kind == JointKind::Driven || is_animated(joint.a) ||
-           is_animated(joint.b);
+    return joint.damping != std::array<double, 3>{} || joint.kind == JointKind::Driven ||
+           is_animated(joint.a) || is_animated(joint.b);
   });
 }
 

@@ -14,12 +14,28 @@ void write_value(JsonStream& json, std::span<const double> numbers) {
   else json.value(numbers);
 }
 
+/// One end of the limits, for several numbers an array; infinity is written as null.
+void write_limits(JsonStream& json, const Link& link, double LinkLimits::*end) {
+  const int count = limit_count(link.kind);
+  if (count == 0) json.null();
+  else if (count == 1) json.value(link.limits[0].*end);
+  else {
+    json.begin_array();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) json.value(link.limits[i].*end);
+    json.end_array();
+  }
+}
+
 void write_link(JsonStream& json, const Link& link, const LinkValue& value) {
-  const bool has_axis = link.kind == LinkKind::Pivot || link.kind == LinkKind::Slider;
   json.begin_object().member("name", link.name).member("kind", to_string(link.kind));
   json.key("axis");
-  has_axis ? json.value(link.axis) : json.null();
-  json.member("lower", link.lower).member("upper", link.upper);  // infinity is written as null
+  has_axis(link.kind) ? json.value(link.axis) : json.null();
+  if (has_axis2(link.kind)) json.member("axis2", link.axis2);
+  if (link.kind == LinkKind::Screw) json.member("pitch", link.pitch);
+  json.key("lower");
+  write_limits(json, link, &LinkLimits::lower);
+  json.key("upper");
+  write_limits(json, link, &LinkLimits::upper);
   json.key("value");
   write_value(json, value.numbers());
   json.end_object();

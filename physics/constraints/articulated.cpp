@@ -75,18 +75,23 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
       w_rel = R_J * vec(motion.w_AB), v_rel = R_J * vec(motion.v_AB);
       al_rel = R_J * vec(motion.alpha_AB), a_rel = R_J * vec(motion.a_AB);
     } else {
-      with_model(link.kind, [&](auto model) {
+      with_model(link, [&](auto model) {
         using Model = decltype(model);
-        Model::place(q.data() + link.q, R_rel, p_rel);
+        model.place(q.data() + link.q, R_rel, p_rel);
         Vec* S_a = S_a_.data() + link.v;
         Vec* S_l = S_l_.data() + link.v;
-        Model::columns(R_rel, S_a, S_l);
+        model.columns(R_rel, S_a, S_l);
         for (int j = 0; j < Model::kRates; ++j) {
           S_a[j] = R_J * S_a[j];
           S_l[j] = R_J * S_l[j];
           const double rate = v[link.v + static_cast<std::uint32_t>(j)];
           w_rel += rate * S_a[j];
           v_rel += rate * S_l[j];
+        }
+        if constexpr (requires { model.bias(R_rel, v.data(), al_rel, a_rel); }) {
+          model.bias(R_rel, v.data() + link.v, al_rel, a_rel);
+          al_rel = R_J * al_rel;
+          a_rel = R_J * a_rel;
         }
       });
     }
@@ -173,7 +178,10 @@ void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span
     U_a[j] = work.A * S_a[j] + work.B * S_l[j];
     U_l[j] = transposed_times(work.B, S_a[j]) + work.M * S_l[j];
     u[j] = -dot(S_a[j], work.p_a) - dot(S_l[j], work.p_l);
-    if (!v.empty()) u[j] -= link.damping * v[link.v + static_cast<std::uint32_t>(j)];
+    if constexpr (N <= 3) {
+      if (!v.empty())
+        u[j] -= link.damping[static_cast<std::size_t>(j)] * v[link.v + static_cast<std::uint32_t>(j)];
+    }
     scale_[link.v + static_cast<std::uint32_t>(j)] =
         dot(S_a[j], S_a[j]) * angular + dot(S_l[j], S_l[j]) * linear;
   }
@@ -243,7 +251,7 @@ void Articulated::eliminate(const TreeLayout& layout, const Tree& tree, std::spa
   for (std::uint32_t i = tree.links_end; i-- > tree.links_begin;) {
     const TreeLink& link = layout.links[i];
     LinkWork& work = work_[i];
-    with_model(link.kind, [&](auto model) { eliminate_link<decltype(model)::kRates>(link, work, v); });
+    with_model(link, [&](auto model) { eliminate_link<decltype(model)::kRates>(link, work, v); });
     if (link.parent >= 0) shift_to_parent(work, work_[static_cast<std::size_t>(link.parent)]);
   }
 }
@@ -276,7 +284,7 @@ void Articulated::substitute(const TreeLayout& layout, const Tree& tree, std::sp
       dal = parent.dal;
       da = parent.da + cross(parent.dal, work.r);
     }
-    with_model(link.kind,
+    with_model(link,
                [&](auto model) { substitute_link<decltype(model)::kRates>(link, work, dal, da, v_dot); });
   }
 }
@@ -284,7 +292,7 @@ void Articulated::substitute(const TreeLayout& layout, const Tree& tree, std::sp
 bool Articulated::is_singular(const TreeLayout& layout, std::int32_t index) const {
   const TreeLink& link = layout.links[static_cast<std::size_t>(index)];
   bool singular = false;
-  with_model(link.kind, [&](auto model) {
+  with_model(link, [&](auto model) {
     for (std::uint32_t j = 0; j < decltype(model)::kRates; ++j) {
       const double d = D_[link.v + j][j];
       singular = singular || d <= 1e-12 * scale_[link.v + j];

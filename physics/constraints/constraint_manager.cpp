@@ -56,7 +56,7 @@ void ConstraintManager::measure(const BodyStore& bodies, const Tree& tree, std::
       X_WP = bodies.X_WB(static_cast<std::size_t>(link.ground));
     }
     const Pose X_JaJb = inverse(X_WP * link.X_PJ) * link_pose(bodies, link);
-    with_model(link.kind, [&](auto model) { decltype(model)::measure(X_JaJb, q.data() + link.q); });
+    with_model(link, [&](auto model) { model.measure(X_JaJb, q.data() + link.q); });
   }
 }
 
@@ -88,8 +88,8 @@ void ConstraintManager::prepare(BodyStore& bodies) {
       if (link.joint >= 0 && last_[static_cast<std::size_t>(link.joint)].known) {
         near = last_[static_cast<std::size_t>(link.joint)];
       }
-      with_model(link.kind, [&](auto model) {
-        if (link.reversed) decltype(model)::reverse(near.q, near.v);
+      with_model(link, [&](auto model) {
+        if (link.reversed) model.reverse(near.q, near.v);
         std::copy_n(near.q, decltype(model)::kCoordinates, state.coordinates.data() + link.q);
       });
     }
@@ -182,7 +182,7 @@ void ConstraintManager::teleport(BodyStore& bodies, std::size_t body, const Pose
   if (link.parent >= 0) X_WP = link_pose(bodies, layout_.links[static_cast<std::size_t>(link.parent)]);
   if (link.parent < 0 && link.ground >= 0) X_WP = bodies.X_WB(static_cast<std::size_t>(link.ground));
   double* q = bodies.state.coordinates.data() + link.q;
-  with_model(link.kind, [&](auto model) { decltype(model)::measure(inverse(X_WP * link.X_PJ) * X_WL, q); });
+  with_model(link, [&](auto model) { model.measure(inverse(X_WP * link.X_PJ) * X_WL, q); });
   if (link.kind == JointKind::Free) {
     double* v = bodies.state.rates.data() + link.v;
     const Vector3 w_L = X_WL.q.conjugate() * kept.w_WB;

@@ -19,8 +19,15 @@ JointNumbers::operator double() const {
 
 std::string_view to_string(JointKind kind) noexcept {
   std::string_view name;
-  with_model(kind, [&name](auto model) { name = decltype(model)::kName; });
+  JointDefinition joint;
+  joint.kind = kind;
+  with_model(joint, [&name](auto model) { name = decltype(model)::kName; });
   return name;
+}
+
+double angle_about_z(const Quaternion& q, double near) noexcept {
+  const double angle = 2 * std::atan2(q.z(), q.w());
+  return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
 }
 
 namespace {
@@ -39,7 +46,7 @@ JointDefinition defined(JointKind kind, auto& settings) {
     joint.X_AJ = settings.X_AJ;
     joint.X_BJ = settings.X_BJ;
   }
-  if constexpr (requires { settings.damping; }) joint.damping = settings.damping;
+  if constexpr (requires { settings.damping; }) joint.damping.fill(settings.damping);
   return joint;
 }
 
@@ -60,9 +67,13 @@ std::optional<SettingsProblem> problem_with(const JointDefinition& joint) {
                            subject + "a joint frame is not finite or its quaternion is not unit",
                            "give finite positions and unit quaternions"};
   }
-  if (!(joint.damping >= 0) || !std::isfinite(joint.damping)) {
-    return SettingsProblem{ProblemCode::OutOfRange, subject + "damping is " + std::to_string(joint.damping),
+  for (const double damping : joint.damping) {
+    if (damping >= 0 && std::isfinite(damping)) continue;
+    return SettingsProblem{ProblemCode::OutOfRange, subject + "damping is " + std::to_string(damping),
                            "give a finite damping >= 0"};
+  }
+  if (!std::isfinite(joint.pitch)) {
+    return SettingsProblem{ProblemCode::OutOfRange, subject + "pitch is not finite", "give metres per rad"};
   }
   if ((joint.kind == JointKind::Driven) != (joint.driver != nullptr)) {
     return SettingsProblem{ProblemCode::OutOfRange, subject + "a driven joint, and no other, has a driver",
@@ -79,6 +90,22 @@ JointDefinition define(PivotSettings settings) { return defined(JointKind::Pivot
 JointDefinition define(SliderSettings settings) { return defined(JointKind::Slider, settings); }
 JointDefinition define(BallSettings settings) { return defined(JointKind::Ball, settings); }
 JointDefinition define(FixedSettings settings) { return defined(JointKind::Fixed, settings); }
+JointDefinition define(CylindricalSettings settings) {
+  JointDefinition joint = defined(JointKind::Cylindrical, settings);
+  joint.damping = {settings.angular_damping, settings.linear_damping, 0};
+  return joint;
+}
+JointDefinition define(UniversalSettings settings) { return defined(JointKind::Universal, settings); }
+JointDefinition define(PlanarSettings settings) {
+  JointDefinition joint = defined(JointKind::Planar, settings);
+  joint.damping = {settings.linear_damping, settings.linear_damping, settings.angular_damping};
+  return joint;
+}
+JointDefinition define(ScrewSettings settings) {
+  JointDefinition joint = defined(JointKind::Screw, settings);
+  joint.pitch = settings.pitch;
+  return joint;
+}
 JointDefinition define(DrivenSettings settings) {
   JointDefinition joint = defined(JointKind::Driven, settings);
   joint.driver = std::move(settings.driver);

@@ -1,7 +1,7 @@
 #pragma once
 // What all joints share: how one is described to the constraint manager, and the numbers that say where it
 // stands. To add a joint kind: one header like pivot.hpp (settings, problem_with, define, and a model for the
-// kernel) and one line in joint_models.hpp.
+// kernel), its name in JointKind and its line in joint_models.hpp.
 #include <array>
 #include <initializer_list>
 #include <memory>
@@ -14,12 +14,24 @@
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/pose.hpp>
 #include <pantin/physics/problem.hpp>
+#include <pantin/physics/step_report.hpp>
 
 namespace pantin {
 
 /// In the order of JointModels (joint_models.hpp).
-enum class JointKind : std::uint8_t { Pivot, Slider, Ball, Fixed, Driven, Free };
-/// "pivot", "slider", "ball", "fixed", "driven", "free".
+enum class JointKind : std::uint8_t {
+  Pivot,
+  Slider,
+  Ball,
+  Fixed,
+  Cylindrical,
+  Universal,
+  Planar,
+  Screw,
+  Driven,
+  Free,
+};
+/// The kind in lower case: "pivot", "slider", ...
 [[nodiscard]] std::string_view to_string(JointKind kind) noexcept;
 
 /// The coordinates or rates of a joint: at most seven numbers; one number converts to double.
@@ -50,11 +62,23 @@ struct JointDefinition {
   std::string name{};
   BodyId a{}, b{};                   ///< a null = the world
   Pose X_AJ{}, X_BJ{};               ///< J seen from the body origins (from the world where a is null)
-  double damping{0};                 ///< viscous, on every rate
+  std::array<double, 3> damping{};   ///< viscous, by rate, >= 0 [N m s/rad] or [N s/m]
+  double pitch{0};                   ///< [m/rad]; Screw only
   std::unique_ptr<Driver> driver{};  ///< Driven only: X_AB(t)
 };
 
-/// Checks shared by all joints: finite frames, unit quaternions, b given, a != b, damping >= 0.
+/// Checks shared by all joints: finite frames, unit quaternions, b given, a != b, damping >= 0, finite pitch.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const JointDefinition& joint);
+
+/// The angle about z [rad] of the rotation about z nearest to q, in the turn nearest to `near`.
+[[nodiscard]] double angle_about_z(const Quaternion& q, double near) noexcept;
+
+/// X_JaJb of a joint that is not driven, at coordinates `value` (as many as it has; quaternions of any length
+/// but 0).
+[[nodiscard]] Pose joint_pose(const JointDefinition& joint, const JointNumbers& value);
+
+/// How far X_JaJb is from the poses that a joint, not driven, allows: from that of the coordinates measured
+/// there.
+[[nodiscard]] JointDrift joint_miss(const JointDefinition& joint, const Pose& X_JaJb);
 
 }  // namespace pantin

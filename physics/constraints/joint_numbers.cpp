@@ -24,7 +24,37 @@ PointRates rates_at(const BodyStore& bodies, BodyId id, const Vector3& p_WQ) {
   return {k.v_WBcm + k.w_WB.cross(p_WQ - k.p_WBcm), k.w_WB};
 }
 
+JointDrift pose_miss(const Pose& X, const Pose& wanted) {
+  return {(X.p - wanted.p).norm(), X.q.angularDistance(wanted.q)};
+}
+
 }  // namespace
+
+Pose joint_pose(const JointDefinition& joint, const JointNumbers& value) {
+  Pose X;
+  with_model(joint, [&](auto model) {
+    PANTIN_EXPECTS(value.size() == decltype(model)::kCoordinates,
+                   "a " + std::string{decltype(model)::kName} + " has " +
+                       std::to_string(decltype(model)::kCoordinates) + " coordinate(s), not " +
+                       std::to_string(value.size()));
+    kernel::Mat3<double> R;
+    kernel::Vec3<double> p;
+    model.place(value.numbers().data(), R, p);
+    const Matrix3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.m);
+    X = {{p.x, p.y, p.z}, Quaternion{rotation}};
+  });
+  return X;
+}
+
+JointDrift joint_miss(const JointDefinition& joint, const Pose& X_JaJb) {
+  double q[kMostCoordinates] = {1};
+  std::size_t size = 0;
+  with_model(joint, [&](auto model) {
+    model.measure(X_JaJb, q);
+    size = decltype(model)::kCoordinates;
+  });
+  return pose_miss(X_JaJb, joint_pose(joint, JointNumbers{std::span<const double>{q, size}}));
+}
 
 Pose ConstraintManager::relative_pose(const BodyStore& bodies, const JointDefinition& joint) const {
   return inverse(end_pose(bodies, joint.a, joint.X_AJ)) * end_pose(bodies, joint.b, joint.X_BJ);
@@ -36,15 +66,14 @@ ConstraintManager::Numbers ConstraintManager::numbers(const BodyStore& bodies, s
   const std::int32_t index = stale_ ? -1 : layout_.link_of_joint[j];
   if (index >= 0) {
     const TreeLink& link = layout_.links[static_cast<std::size_t>(index)];
-    with_model(joint.kind, [&](auto model) {
+    with_model(joint, [&](auto model) {
       std::copy_n(bodies.state.coordinates.data() + link.q, decltype(model)::kCoordinates, out.q);
       std::copy_n(bodies.state.rates.data() + link.v, decltype(model)::kRates, out.v);
-      if (link.reversed) decltype(model)::reverse(out.q, out.v);
+      if (link.reversed) model.reverse(out.q, out.v);
     });
   } else {
     if (!out.known && joint.kind == JointKind::Ball) out.q[0] = 1;
-    with_model(joint.kind,
-               [&](auto model) { decltype(model)::measure(relative_pose(bodies, joint), out.q); });
+    with_model(joint, [&](auto model) { model.measure(relative_pose(bodies, joint), out.q); });
   }
   out.known = true;
   return out;
@@ -53,7 +82,7 @@ ConstraintManager::Numbers ConstraintManager::numbers(const BodyStore& bodies, s
 JointNumbers ConstraintManager::value(const BodyStore& bodies, std::size_t j) const {
   const Numbers n = numbers(bodies, j);
   std::size_t size = 0;
-  with_model(joints_[j]->kind, [&](auto model) { size = decltype(model)::kCoordinates; });
+  with_model(*joints_[j], [&](auto model) { size = decltype(model)::kCoordinates; });
   return JointNumbers{std::span<const double>{n.q, size}};
 }
 
@@ -62,18 +91,29 @@ JointNumbers ConstraintManager::rate(const BodyStore& bodies, std::size_t j) con
   const JointDefinition& joint = *joints_[j];
   const Pose X_WJa = end_pose(bodies, joint.a, joint.X_AJ), X_WJb = end_pose(bodies, joint.b, joint.X_BJ);
   const PointRates a = rates_at(bodies, joint.a, X_WJb.p), b = rates_at(bodies, joint.b, X_WJb.p);
-  const Vector3 w = X_WJb.q.conjugate() * Vector3{b.w - a.w};
+  const Vector3 w = X_WJa.q.conjugate() * Vector3{b.w - a.w};
   const Vector3 v = X_WJa.q.conjugate() * Vector3{b.v - a.v};
-  switch (joint.kind) {
-    case JointKind::Pivot:
-      return w.z();
-    case JointKind::Slider:
-      return v.z();
-    case JointKind::Ball:
-      return {w.x(), w.y(), w.z()};
-    default:
-      return {};
-  }
+  JointNumbers out;
+  with_model(joint, [&](auto model) {
+    // The rates whose motion is nearest, with a metre weighing as much as a radian.
+    constexpr int kRates = decltype(model)::kRates;
+    if constexpr (kRates > 0) {
+      const Matrix3 R_JaJb = (X_WJa.q.conjugate() * X_WJb.q).toRotationMatrix();
+      kernel::Mat3<double> R;
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>{R.m} = R_JaJb;
+      kernel::Vec3<double> angular[kRates], linear[kRates];
+      model.columns(R, angular, linear);
+      Eigen::Matrix<double, 6, kRates> S;
+      for (int k = 0; k < kRates; ++k)
+        S.col(k) << angular[k].x, angular[k].y, angular[k].z, linear[k].x, linear[k].y, linear[k].z;
+      Eigen::Matrix<double, 6, 1> V;
+      V << w, v;
+      const Eigen::Matrix<double, kRates, kRates> SS = S.transpose() * S;
+      const Eigen::Matrix<double, kRates, 1> rates = SS.ldlt().solve(S.transpose() * V);
+      out = JointNumbers{std::span<const double>{rates.data(), kRates}};
+    }
+  });
+  return out;
 }
 
 void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numbers& given) {
@@ -82,9 +122,9 @@ void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numb
                                  "' moves nothing: both its bodies are not simulated, or it is fixed");
   const TreeLink& link = layout_.links[static_cast<std::size_t>(index)];
   Numbers n = given;
-  with_model(link.kind, [&](auto model) {
-    if (link.reversed) decltype(model)::reverse(n.q, n.v);
-    decltype(model)::normalise(n.q);
+  with_model(link, [&](auto model) {
+    if (link.reversed) model.reverse(n.q, n.v);
+    model.normalise(n.q);
     std::copy_n(n.q, decltype(model)::kCoordinates, bodies.state.coordinates.data() + link.q);
     std::copy_n(n.v, decltype(model)::kRates, bodies.state.rates.data() + link.v);
   });
@@ -96,7 +136,7 @@ void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numb
 void ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value) {
   prepare(bodies);
   Numbers n = numbers(bodies, j);
-  with_model(joints_[j]->kind, [&](auto model) {
+  with_model(*joints_[j], [&](auto model) {
     PANTIN_EXPECTS(value.size() == decltype(model)::kCoordinates,
                    "a " + std::string{decltype(model)::kName} + " has " +
                        std::to_string(decltype(model)::kCoordinates) + " coordinate(s), not " +
@@ -109,7 +149,7 @@ void ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointN
 void ConstraintManager::set_rate(BodyStore& bodies, std::size_t j, const JointNumbers& rate) {
   prepare(bodies);
   Numbers n = numbers(bodies, j);
-  with_model(joints_[j]->kind, [&](auto model) {
+  with_model(*joints_[j], [&](auto model) {
     PANTIN_EXPECTS(rate.size() == decltype(model)::kRates,
                    "a " + std::string{decltype(model)::kName} + " has " +
                        std::to_string(decltype(model)::kRates) + " rate(s), not " +
@@ -123,26 +163,15 @@ JointDrift ConstraintManager::drift(const BodyStore& bodies) const {
   JointDrift drift;
   for (const auto& joint : joints_) {
     const Pose X = relative_pose(bodies, *joint);
-    const auto miss = [&X](const Pose& wanted) {
-      return JointDrift{(X.p - wanted.p).norm(), X.q.angularDistance(wanted.q)};
-    };
     JointDrift here;
     if (joint->kind == JointKind::Driven) {
       // Where the driven motion jumps, the bodies stand on either side of the jump.
       const double t = bodies.state.time;
-      const JointDrift before = miss(joint->driver->motion(t, Side::Before).X_AB);
-      const JointDrift after = miss(joint->driver->motion(t, Side::After).X_AB);
+      const JointDrift before = pose_miss(X, joint->driver->motion(t, Side::Before).X_AB);
+      const JointDrift after = pose_miss(X, joint->driver->motion(t, Side::After).X_AB);
       here = before.distance + before.angle < after.distance + after.angle ? before : after;
     } else {
-      with_model(joint->kind, [&](auto model) {
-        double q[kMostCoordinates] = {1};
-        decltype(model)::measure(X, q);
-        kernel::Mat3<double> R;
-        kernel::Vec3<double> p;
-        decltype(model)::place(q, R, p);
-        const Matrix3 rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.m);
-        here = miss({{p.x, p.y, p.z}, Quaternion{rotation}});
-      });
+      here = joint_miss(*joint, X);
     }
     drift.distance = std::max(drift.distance, here.distance);
     drift.angle = std::max(drift.angle, here.angle);

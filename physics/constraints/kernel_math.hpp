@@ -87,6 +87,15 @@ inline Sym3<T> rotated(const Mat3<T>& R, const Sym3<T>& A) {
   return {row(0, a), row(1, b), row(2, c), row(0, b), row(0, c), row(1, c)};
 }
 
+/// Rotation by an angle [rad] about z.
+template <class T>
+inline Mat3<T> rotation_about_z(const T& angle) {
+  using std::cos;
+  using std::sin;
+  const T c = cos(angle), s = sin(angle);
+  return {{c, -s, T(0), s, c, T(0), T(0), T(0), T(1)}};
+}
+
 /// Rotation matrix of a quaternion (w, x, y, z) of any length but zero.
 template <class T>
 inline Mat3<T> rotation_of(const T* q) {

@@ -21,10 +21,7 @@ struct PivotModel {
 
   template <class T>
   static void place(const T* q, kernel::Mat3<T>& R, kernel::Vec3<T>& p) {
-    using std::cos;
-    using std::sin;
-    const T c = cos(q[0]), s = sin(q[0]);
-    R = {{c, -s, T(0), s, c, T(0), T(0), T(0), T(1)}};
+    R = kernel::rotation_about_z(q[0]);
     p = {};
   }
   template <class T>
@@ -36,11 +33,7 @@ struct PivotModel {
   static void rate(const T*, const T* v, T* q_dot) {
     q_dot[0] = v[0];
   }
-  static void measure(const Pose& X_JaJb, double* q) {
-    // The angle about z of the rotation nearest to X_JaJb, in the turn nearest to the present value.
-    const double angle = 2 * std::atan2(X_JaJb.q.z(), X_JaJb.q.w());
-    q[0] = angle + 2 * M_PI * std::round((q[0] - angle) / (2 * M_PI));
-  }
+  static void measure(const Pose& X_JaJb, double* q) { q[0] = angle_about_z(X_JaJb.q, q[0]); }
   static void normalise(double*) {}
   static void reverse(double* q, double* v) {
     q[0] = -q[0];

@@ -102,7 +102,7 @@ class Builder {
     const auto index = static_cast<std::int32_t>(layout_.links.size());
     link.q = layout_.coordinates;
     link.v = layout_.rates;
-    with_model(link.kind, [&](auto model) {
+    with_model(link, [&](auto model) {
       layout_.coordinates += static_cast<std::uint32_t>(decltype(model)::kCoordinates);
       layout_.rates += static_cast<std::uint32_t>(decltype(model)::kRates);
     });
@@ -128,9 +128,16 @@ class Builder {
     link.kind = joint.kind;
     link.reversed = !edge.to_b;
     link.damping = joint.damping;
+    link.pitch = joint.pitch;
     link.driver = joint.driver.get();
-    link.X_PJ = X_PNear * (edge.to_b ? joint.X_AJ : joint.X_BJ);
-    X_LFar = inverse(edge.to_b ? joint.X_BJ : joint.X_AJ);
+    Pose X_JL;  // from the joint's own frames to the kernel's
+    with_model(joint, [&](auto model) {
+      if constexpr (requires { model.reversed_frame(); }) {
+        if (!edge.to_b) X_JL.q = model.reversed_frame();
+      }
+    });
+    link.X_PJ = X_PNear * (edge.to_b ? joint.X_AJ : joint.X_BJ) * X_JL;
+    X_LFar = inverse((edge.to_b ? joint.X_BJ : joint.X_AJ) * X_JL);
     return link;
   }
 

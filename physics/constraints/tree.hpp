@@ -2,6 +2,7 @@
 // Joined bodies as the solver sees them: trees of links, parents first. A link is one body or several that
 // Fixed joints make one; its frame L sits at the joint that ties it to its parent. Bodies that are not
 // simulated are ground: a tree hangs on at most one of them, or floats.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,7 +35,8 @@ struct TreeLink {
   double mass{0};                  ///< [kg]
   kernel::Vec3<double> moment{};   ///< mass * centre of gravity from L's origin, in L [kg m]
   kernel::Sym3<double> inertia{};  ///< about L's origin, in L [kg m^2]
-  double damping{0};
+  std::array<double, 3> damping{};
+  double pitch{0};  ///< [m/rad] of a screw
   const Driver* driver{nullptr};
 };
 

@@ -22,7 +22,7 @@ TEST(HandOver, SaysWhatOfLinksIsNotEnforced) {
   for (int k = 0; k < 3; ++k) {
     const NodeId id = box(s, top, "arm", Affine::Identity());
     Link link = test::pivot_link("p" + std::to_string(k), Affine::Identity(), {0, 0, 1});
-    link.upper = 1;
+    link.limits[0].upper = 1;
     if (k == 2) link.mimic = LinkMimic{.source = "p0"};
     s.scene.set_link(id, link);
   }

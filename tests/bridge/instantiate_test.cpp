@@ -35,7 +35,7 @@ TEST(Instantiate, MakesNodesWithLinksMassesAndDamping) {
   EXPECT_EQ(s.scene.link(instance.nodes[1])->name, "shoulder");
   EXPECT_DOUBLE_EQ(s.bridge.node_body(instance.nodes[0])->mass->mass, 5);
   ASSERT_FALSE(has_error(s.bridge.hand_over(instance.root, Scope::Subtree)));
-  EXPECT_DOUBLE_EQ(s.physics.joint(s.bridge.joint_of(instance.nodes[1])).damping, 0.7);
+  EXPECT_DOUBLE_EQ(s.physics.joint(s.bridge.joint_of(instance.nodes[1])).damping[0], 0.7);
 }
 
 TEST(Instantiate, WeldsAFixedBaseToTheWorldAndLetsAFloatingOneFall) {

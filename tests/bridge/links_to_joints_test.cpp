@@ -18,21 +18,15 @@ using test::turned;
 
 Pose body_of(const Affine& M) { return {M.translation(), polar(M.linear()).q}; }
 
-/// The joint's displacement of B at a value in its own units.
-Pose displacement(JointKind kind, double value) {
-  if (kind == JointKind::Slider) return {.p = {0, 0, value}};
-  return {.q = Quaternion{Eigen::AngleAxisd{value, Vector3::UnitZ()}}};
-}
-
 /// Moves the joint to `value` of the link and compares the body with the node that the link moves.
-double difference_at(const Link& link, const Affine& M_WP, double value) {
+double difference_at(const Link& link, const Affine& M_WP, const LinkValue& value) {
   const Affine M_PN = local_matrix(link, link.value);
   const Pose X_WB = body_of(M_WP * M_PN);
   const std::optional<LinkJoint> joint = joint_of_link(link, {M_WP, M_PN, Pose{}, X_WB});
   EXPECT_TRUE(joint.has_value());
   const Matrix3 S = X_WB.rotation().transpose() * (M_WP * M_PN).linear();
   const Pose X_WB_moved = joint->definition.X_AJ *
-                          displacement(joint->definition.kind, value * joint->metres_per_value) *
+                          joint_pose(joint->definition, joint_numbers(value, joint->metres_per_value)) *
                           inverse(joint->definition.X_BJ);
   Affine by_joint = affine_of(X_WB_moved);
   by_joint.linear() *= S;
@@ -57,6 +51,38 @@ TEST(LinksToJoints, MoveTheBodyAsTheLinkMovesItsNode) {
         EXPECT_LT(difference_at(slider, M_WP, value), 1e-14) << value;
     }
   }
+}
+
+TEST(LinksToJoints, MoveTheBodyAsLinksOfSeveralNumbersDo) {
+  // The same for the kinds with two axes, with a pitch or with several numbers; uneven scale is left out,
+  // where a node's turn is no rotation.
+  const Affine pose = moved({1, -2, 3}) * turned(0.8, {1, 2, -1});
+  for (const Affine& M_WP : {Affine::Identity(), pose, pose * scaled({2, 2, 2}), pose * scaled({1, 1, -1}),
+                             pose * scaled({-0.5, -0.5, -0.5}), scaled({-1, 1, 1}) * pose}) {
+    for (const LinkKind kind :
+         {LinkKind::Cylindrical, LinkKind::Universal, LinkKind::Planar, LinkKind::Screw}) {
+      Link link{.kind = kind, .name = "l", .M_PJ = moved({0.1, 0.2, 0.3}) * turned(0.3, {0, 1, 1})};
+      link.M_JN = moved({0.5, 0, 0.1}) * turned(0.2, {1, 0, 0});
+      link.axis = Vector3{1, 2, 2} / 3;
+      link.axis2 = Vector3{2, 1, -2} / 3;
+      link.pitch = 0.1;
+      const LinkValue value{0.4, -1.1, 2.0}, start{-0.2, 0.3, 0.5};
+      const auto size = static_cast<std::size_t>(value_size(kind));
+      link.value = LinkValue{start.numbers().first(size)};
+      EXPECT_LT(difference_at(link, M_WP, LinkValue{value.numbers().first(size)}), 2e-14) << to_string(kind);
+      EXPECT_LT(difference_at(link, M_WP, link.value), 2e-14) << to_string(kind);
+    }
+  }
+}
+
+TEST(LinksToJoints, NumbersGoBothWays) {
+  // joint_numbers and link_value are inverses, at scales of any sign; of two quaternions the nearer is given.
+  const std::array<double, 3> scale{2, -0.5, 1};
+  const LinkValue value{0.3, 0.4, 0.5};
+  EXPECT_EQ(link_value(joint_numbers(value, scale), scale, value), value);
+  const LinkValue q{0.6, 0, 0, 0.8}, opposite{-0.6, 0, 0, -0.8};
+  EXPECT_EQ(link_value(joint_numbers(q, scale), scale, q), q);
+  EXPECT_EQ(link_value(joint_numbers(q, scale), scale, opposite), opposite);
 }
 
 TEST(LinksToJoints, SlidersMoveByTheScaledAxisUnderAnyParent) {

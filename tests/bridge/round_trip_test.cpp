@@ -82,9 +82,14 @@ class Hierarchy {
 
   /// A link at whose present value the node is where it is.
   Link link_of(NodeId id) {
-    const LinkKind kind = std::array{LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Fixed,
-                                     LinkKind::Free}[static_cast<std::size_t>(forest.below(5))];
+    const LinkKind kind =
+        std::array{LinkKind::Pivot,  LinkKind::Slider,      LinkKind::Ball,
+                   LinkKind::Fixed,  LinkKind::Cylindrical, LinkKind::Universal,
+                   LinkKind::Planar, LinkKind::Screw,       LinkKind::Free}[static_cast<std::size_t>(
+            forest.below(9))];
     Link link{.kind = kind, .axis = forest.vector(1).normalized(), .value = zero_value(kind)};
+    link.axis2 = link.axis.cross(forest.vector(1)).normalized();
+    link.pitch = 0.1;
     link.M_PJ = Affine{Eigen::Translation3d{forest.vector(1)}} * Affine{forest.rotation()};
     link.M_JN = link.M_PJ.inverse() * stage.scene.local(id);
     return link;

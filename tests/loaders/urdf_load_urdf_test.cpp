@@ -141,8 +141,8 @@ TEST_F(LoadUrdf, ReadsNumbersHoweverTheyAreSpaced) {
   ASSERT_TRUE(loaded.value.has_value());
   const Link& link = *loaded.value->nodes[1].link;
   EXPECT_EQ(Vector3{link.M_PJ.translation()}, Vector3(1, 2, 3));
-  EXPECT_EQ(link.lower, -1);
-  EXPECT_EQ(link.upper, 1);
+  EXPECT_EQ(link.limits[0].lower, -1);
+  EXPECT_EQ(link.limits[0].upper, 1);
 }
 
 TEST_F(LoadUrdf, SaysNothingOnTheConsole) {

@@ -143,8 +143,8 @@ TEST(ProblemWithTrack, NamesEachFault) {
             "a rotation has width 4 and must not be 3");
   EXPECT_EQ(problem_with(Track{.channel = Channel::Scale, .width = 1}),
             "a scale has width 3 and must not be 1");
-  EXPECT_EQ(problem_with(Track{.channel = Channel::LinkValue, .width = 2}),
-            "a link value has width 1, 4 or 7 and must not be 2");
+  EXPECT_EQ(problem_with(Track{.channel = Channel::LinkValue, .width = 5}),
+            "a link value has width 1, 2, 3, 4 or 7 and must not be 5");
   const Interpolation step = Interpolation::Step;
   EXPECT_EQ(problem_with(numbers(step, {}, {})), "it has no keys");
   EXPECT_EQ(problem_with(numbers(step, {0, kNaN}, {1, 1})), "key 1 at nan s is not finite");

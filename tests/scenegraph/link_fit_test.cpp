@@ -15,6 +15,8 @@ Link random_link(LinkKind kind, std::mt19937_64& random) {
   Link link;
   link.kind = kind;
   link.axis = test::random_vector(random).normalized();
+  link.axis2 = link.axis.cross(test::random_vector(random)).normalized();
+  link.pitch = test::uniform(random, -0.3, 0.3);
   link.M_PJ = test::random_affine(random);
   link.M_JN = test::random_affine(random);
   link.value = zero_value(kind);
@@ -28,9 +30,14 @@ LinkValue random_value(LinkKind kind, std::mt19937_64& random) {
     case LinkKind::Fixed:
       return {};
     case LinkKind::Pivot:
-      return test::uniform(random, -20, 20);
     case LinkKind::Slider:
+    case LinkKind::Screw:
       return test::uniform(random, -20, 20);
+    case LinkKind::Cylindrical:
+    case LinkKind::Universal:
+      return {20 * t.x(), 20 * t.y()};
+    case LinkKind::Planar:
+      return {20 * t.x(), 20 * t.y(), 20 * t.z()};
     case LinkKind::Ball:
       return {q.w(), q.x(), q.y(), q.z()};
     case LinkKind::Free:
@@ -50,7 +57,8 @@ TEST(FitLink, GivesBackTheValue) {
   // conditions below 100, so inverses cost two digits of 1e-16 times the size of the value.
   std::mt19937_64 random{21};
   for (const LinkKind kind :
-       {LinkKind::Fixed, LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Free})
+       {LinkKind::Fixed, LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Cylindrical,
+        LinkKind::Universal, LinkKind::Planar, LinkKind::Screw, LinkKind::Free})
     for (int k = 0; k < 500; ++k) {
       const Link link = random_link(kind, random);
       const LinkValue value = random_value(kind, random);
@@ -113,6 +121,41 @@ TEST(FitLink, FindsTheNearestPivotAngle) {
       ASSERT_LE(distance(angle), distance(angle + step * 0.0628) + 1e-14);
     ASSERT_LE(distance(angle), distance(angle + 1e-4) + 1e-14);
     ASSERT_LE(distance(angle), distance(angle - 1e-4) + 1e-14);
+  }
+}
+
+TEST(FitLink, ReadsTheTurnsOfAScrewFromItsPlace) {
+  // 100 turns of a thread are 100 pitches away: the value is found whatever one is near to. Without pitch a
+  // screw is a pivot, whose turns only the neighbour tells.
+  Link link;
+  link.kind = LinkKind::Screw;
+  link.pitch = -0.002;
+  const double angle = 200 * std::numbers::pi + 0.3;
+  EXPECT_NEAR(fit_link(link, local_matrix(link, angle), 0.0).value[0], angle, 1e-12 * angle);
+  link.pitch = 0;
+  EXPECT_NEAR(fit_link(link, local_matrix(link, angle), 0.0).value[0], 0.3, 1e-12);
+}
+
+TEST(FitLink, FindsTheNearestScrewAndUniversalAngles) {
+  // Of a matrix that no value makes, none of the values around the one found is nearer (rotation and
+  // translation entries alike for the screw).
+  std::mt19937_64 random{25};
+  for (int k = 0; k < 200; ++k) {
+    Link link = random_link(k % 2 == 0 ? LinkKind::Screw : LinkKind::Universal, random);
+    link.M_PJ = link.M_JN = Affine::Identity();
+    const Affine M = test::random_affine(random);
+    const LinkValue found = fit_link(link, M, link.value).value;
+    const auto distance = [&](const LinkValue& v) {
+      return (local_matrix(link, v).matrix() - M.matrix()).norm();
+    };
+    for (const double step : {1e-4, 1e-2, 0.2})
+      for (int i = 0; i < found.size(); ++i)
+        for (const double sign : {-1.0, 1.0}) {
+          // A screw's other parts of the matrix do not depend on it; its translation across is left over.
+          LinkValue other = found;
+          other[i] += sign * step;
+          ASSERT_LE(distance(found), distance(other) + 1e-13) << to_string(link.kind) << " " << step;
+        }
   }
 }
 

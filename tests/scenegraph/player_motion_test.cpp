@@ -84,19 +84,22 @@ TEST(Motion, ChannelsHaveExactDerivatives) {
 TEST(Motion, LinksHaveExactDerivatives) {
   // Value -> T -> M_PJ T M_JN with sheared frames, for each kind that has a value.
   std::mt19937_64 random{62};
-  for (const LinkKind kind : {LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Free})
+  for (const LinkKind kind : {LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Cylindrical,
+                              LinkKind::Universal, LinkKind::Planar, LinkKind::Screw, LinkKind::Free})
     for (int k = 0; k < 50; ++k) {
       Scene scene;
       const NodeId node = scene.create(scene.root(), "node");
       Link link;
       link.kind = kind;
       link.axis = test::random_vector(random).normalized();
+      link.axis2 = link.axis.cross(test::random_vector(random)).normalized();
+      link.pitch = 0.4;
       link.M_PJ = test::random_affine(random);
       link.M_JN = test::random_affine(random);
       link.value = zero_value(kind);
       scene.set_link(node, link);
       const int width = value_size(kind);
-      const Clip moving = clip({random_cubic(Channel::LinkValue, width, width > 1, random)}, 1);
+      const Clip moving = clip({random_cubic(Channel::LinkValue, width, width > 3, random)}, 1);
       const Player player{scene, moving, {node}, {.speed = 0.5}};
       const double t = test::uniform(random, 0.1, 1.9);
       expect_derivatives(player, node, t);
