@@ -30,6 +30,7 @@
 #include <pantin/physics/forces/gravity.hpp>
 #include <pantin/physics/forces/linear_drag.hpp>
 #include <pantin/physics/ids.hpp>
+#include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/mass_properties.hpp>
 #include <pantin/physics/physics_manager.hpp>

@@ -34,6 +34,7 @@ StepReport PhysicsManager::step(double h) {
 
   StepReport report;
   world.dynamics.evaluations = 0;
+  world.inner = {};
   for (bool done = false; !done; ++report.updates) {
     const double stop = world.next_break(state.time);
     done = !(stop < end - slack);
@@ -57,6 +58,9 @@ StepReport PhysicsManager::step(double h) {
   world.list_moved();
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
+  report.inner_steps = world.inner.accepted;
+  report.refused_steps = world.inner.refused;
+  report.shortest_step = world.inner.shortest;
   report.moved = world.moved.size();
   report.energy = world.energy();
   return report;
@@ -91,10 +95,21 @@ void PhysicsManager::Impl::pass_break() {
 bool PhysicsManager::Impl::update(double h) {
   dynamics.begin();
   const double t = bodies.state.time;
+  StepControl* control = integrator->control();
+  if (control != nullptr) control->next = bodies.state.next_step;
   integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
   if (dynamics.first_not_finite() >= 0) return false;
+  if (control != nullptr) note_control(*control);
   dynamics.write_back(t + h);
   return true;
+}
+
+void PhysicsManager::Impl::note_control(const StepControl& control) {
+  bodies.state.next_step = control.next;
+  const bool first = inner.accepted == 0;
+  inner.accepted += control.accepted;
+  inner.refused += control.refused;
+  inner.shortest = first ? control.shortest : std::min(inner.shortest, control.shortest);
 }
 
 void PhysicsManager::Impl::apply_impulses() {

@@ -21,6 +21,7 @@ struct State {
   std::uint64_t topology{0};    ///< which set of bodies, joints and kinds it fits
   double time{0};               ///< [s]
   double time_compensation{0};  ///< what rounding has kept back from `time` [s]
+  double next_step{0};          ///< that an adaptive integrator will try first [s]; 0 = none yet
   bool at_break{false};         ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
   std::vector<BodyKinematics>

@@ -25,13 +25,16 @@ enum class StepStatus {
 
 struct StepReport {
   StepStatus status{StepStatus::Done};
-  double time{0};         ///< reached [s]
-  int updates{0};         ///< parts the step was cut into, at breaks of driven motions
-  int evaluations{0};     ///< of the derivative
-  std::size_t moved{0};   ///< bodies with a changed pose
-  Energy energy{};        ///< at the end
-  BodyId body{};          ///< culprit of a failed step, if it is one body
-  std::string message{};  ///< of a failed step: what happened, where, what to do
+  double time{0};           ///< reached [s]
+  int updates{0};           ///< parts the step was cut into, at breaks of driven motions
+  int evaluations{0};       ///< of the derivative
+  int inner_steps{0};       ///< that an adaptive integrator took inside; 0 of others
+  int refused_steps{0};     ///< that it took back for missing its tolerance
+  double shortest_step{0};  ///< that it accepted [s]
+  std::size_t moved{0};     ///< bodies with a changed pose
+  Energy energy{};          ///< at the end
+  BodyId body{};            ///< culprit of a failed step, if it is one body
+  std::string message{};    ///< of a failed step: what happened, where, what to do
 
   [[nodiscard]] bool ok() const noexcept { return status == StepStatus::Done; }
 };

@@ -20,12 +20,14 @@ struct PhysicsManager::Impl {
   WorldDynamics dynamics{bodies, constraints, forces};
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
-  State before{};  ///< of a step that is cut into parts, to go back to
+  StepControl inner{};  ///< sums over the parts of a step
+  State before{};       ///< of a step that is cut into parts, to go back to
 
   // The parts of a step, in order (physics_step.cpp).
   [[nodiscard]] double next_break(double t) const;
   void pass_break();
   [[nodiscard]] bool update(double h);
+  void note_control(const StepControl& control);
   void apply_impulses();
   void list_moved();
   [[nodiscard]] StepReport failure() const;

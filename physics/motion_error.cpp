@@ -1,0 +1,122 @@
+// Errors of coordinates as motion of bodies: what an integrator's tolerance is about. An error of joint
+// coordinates is a rate at which the tree would move, so the kernel's outward pass carries it to the bodies
+// with its lever arms.
+#include <algorithm>
+#include <cmath>
+
+#include <pantin/physics/constraints/joint_models.hpp>
+#include <pantin/physics/world_dynamics.hpp>
+
+namespace pantin {
+
+namespace {
+
+/// The greatest of several; what is not a number stays the greatest.
+struct Greatest {
+  double value{0};
+  void count(double x) {
+    if (!(x <= value)) value = x;
+  }
+};
+
+double length(const double* x, int n) {
+  double squares = 0;
+  for (int i = 0; i < n; ++i) squares += x[i] * x[i];
+  return std::sqrt(squares);
+}
+
+/// The rates that move q by q_dot as nearly as they can: the columns of q' = N(q) v are orthogonal for every
+/// joint.
+template <class Model>
+void rates_of(const Model& model, const double* q, const double* q_dot, double* v) {
+  for (int j = 0; j < Model::kRates; ++j) {
+    double unit[kMostRates] = {}, column[kMostCoordinates] = {};
+    unit[j] = 1;
+    model.rate(q, unit, column);
+    double along = 0, squares = 0;
+    for (int i = 0; i < Model::kCoordinates; ++i) {
+      along += column[i] * q_dot[i];
+      squares += column[i] * column[i];
+    }
+    v[j] = along / squares;
+  }
+}
+
+}  // namespace
+
+double WorldDynamics::motion_error(std::span<const double> q, std::span<const double>,
+                                   std::span<const double> q_error, std::span<const double> v_error,
+                                   double h) {
+  const double free = free_error(q, q_error, v_error, h);
+  const double trees = tree_error(q, q_error, v_error, h);
+  return !(trees <= free) ? trees : free;
+}
+
+double WorldDynamics::free_error(std::span<const double> q_all, std::span<const double> q_error,
+                                 std::span<const double> v_error, double h) const {
+  Greatest error;
+  const double *q = q_all.data(), *dq = q_error.data(), *dv = v_error.data();
+  for (const std::uint32_t i : free_bodies()) {
+    error.count(length(dq, 3));
+    error.count(2 * length(dq + 3, 4));
+    error.count(h * length(dv, 3) / bodies_.mass[i].mass);
+    const kernel::Vec3<double> L =
+        kernel::transposed_times(kernel::rotation_of(q + 3), {dv[3], dv[4], dv[5]});
+    error.count(h * (bodies_.inverse_inertia[i] * Vector3{L.x, L.y, L.z}).norm());
+    q += 7, dq += 7, dv += 6;
+  }
+  return error.value;
+}
+
+double WorldDynamics::tree_error(std::span<const double> q, std::span<const double> q_error,
+                                 std::span<const double> v_error, double h) {
+  const TreeLayout& layout = constraints_.layout();
+  if (layout.links.empty()) return 0;
+  const double* q0 = q.data() + (q.size() - layout.coordinates);
+  const double* dq = q_error.data() + (q_error.size() - layout.coordinates);
+  const std::span<const double> dv = v_error.last(layout.rates);
+  // Three motions of every link: as driven parts alone move it, and with either error on top.
+  error_rates_.assign(3 * layout.rates, 0.0);
+  const std::span<double> still{error_rates_.data(), layout.rates};
+  const std::span<double> by_q{error_rates_.data() + layout.rates, layout.rates};
+  const std::span<double> by_v{error_rates_.data() + 2 * layout.rates, layout.rates};
+  for (const TreeLink& link : layout.links) {
+    with_model(link, [&](auto model) { rates_of(model, q0 + link.q, dq + link.q, by_q.data() + link.v); });
+  }
+  for (std::size_t j = 0; j < layout.rates; ++j) by_v[j] = h * dv[j];
+
+  Greatest error;
+  const Instant now{bodies_.state.time, Side::After};
+  Articulated& kernel = constraints_.kernel();
+  for (const Tree& tree : layout.trees) {
+    kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), still);
+    base_.resize(layout.links.size());
+    for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
+      const LinkWork& link = kernel.link(static_cast<std::int32_t>(i));
+      base_[i] = {link.v, link.w};
+    }
+    for (const std::span<const double> rates :
+         {std::span<const double>{by_q}, std::span<const double>{by_v}}) {
+      kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), rates);
+      for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) count_link(i, error.value);
+    }
+  }
+  return error.value;
+}
+
+void WorldDynamics::count_link(std::uint32_t i, double& greatest) const {
+  const TreeLayout& layout = constraints_.layout();
+  const LinkWork& link = constraints_.kernel().link(static_cast<std::int32_t>(i));
+  const kernel::Vec3<double> v = link.v - base_[i].v, w = link.w - base_[i].w;
+  Greatest error{greatest};
+  error.count(std::sqrt(dot(w, w)));
+  for (std::uint32_t m = layout.links[i].members_begin; m < layout.links[i].members_end; ++m) {
+    const TreeMember& member = layout.members[m];
+    const Vector3 c = member.X_LB * bodies_.mass[member.body].p_BBcm;
+    const kernel::Vec3<double> of_cm = v + cross(w, link.R * kernel::Vec3<double>{c.x(), c.y(), c.z()});
+    error.count(std::sqrt(dot(of_cm, of_cm)));
+  }
+  greatest = error.value;
+}
+
+}  // namespace pantin
