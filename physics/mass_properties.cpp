@@ -65,6 +65,28 @@ MassProperties solid_of(const MeshShape& shape) {
   return {integrals.volume, integrals.centroid, inertia_from_second_moments(integrals.second_moments)};
 }
 
+// A cone's centre of gravity is a quarter of its height above the base: a quarter below the middle of S.
+MassProperties solid_of(const ConeShape& cone) {
+  const double r2 = cone.radius * cone.radius, l2 = cone.length * cone.length;
+  const double volume = std::numbers::pi / 3 * r2 * cone.length;
+  const double across = volume * (3.0 / 20 * r2 + 3.0 / 80 * l2);
+  return {volume, {0, 0, -cone.length / 4}, Vector3(across, across, volume * 0.3 * r2).asDiagonal()};
+}
+
+MassProperties solid_of(const EllipsoidShape& ellipsoid) {
+  const double volume = 4.0 / 3.0 * std::numbers::pi * ellipsoid.radii.prod();
+  const Vector3 moments = volume / 5 * ellipsoid.radii.cwiseAbs2();
+  return {volume, Vector3::Zero(), inertia_from_second_moments(moments.asDiagonal())};
+}
+
+MassProperties solid_of(const ConvexShape& convex) { return solid_of(MeshShape{convex.hull, convex.scale}); }
+
+MassProperties solid_of(const CompoundShape& compound) {
+  std::vector<MassProperties> parts;
+  for (const Shape& part : *compound.parts) parts.push_back(mass_of(part, 1));
+  return combined(parts);
+}
+
 MassProperties checked_solid_of(const Shape& shape) {
   const std::optional<SettingsProblem> problem = problem_with(shape);
   PANTIN_EXPECTS(!problem, problem->text + "; " + problem->remedy);

@@ -22,9 +22,9 @@ enum class InertiaCheck {
   Solvable,  ///< positive semi-definite is enough, as in many robot files and textbook problems
 };
 
-/// Negative or non-finite mass, an inertia that is not symmetric or not positive semi-definite, principal moments with
-/// A + B < C (unless waived; tolerances 1e-9 relative), inertia without mass. Massless is allowed here: it is a body
-/// carried by others; whether it can move is judged with what it is joined to.
+/// Negative or non-finite mass, an inertia that is not symmetric or not positive semi-definite, principal
+/// moments with A + B < C (unless waived; tolerances 1e-9 relative), inertia without mass. Massless is
+/// allowed here: it is a body carried by others; whether it can move is judged with what it is joined to.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const MassProperties& mass,
                                                           InertiaCheck check = InertiaCheck::Physical);
 

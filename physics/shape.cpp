@@ -5,11 +5,14 @@
 #include <numeric>
 #include <string>
 
+#include <pantin/physics/convex_hull.hpp>
 #include <pantin/physics/mesh_integrals.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
 namespace {
+
+constexpr double kConvexity = 1e-9;  // of the extent
 
 std::optional<SettingsProblem> geometry_problem(const SphereShape& sphere) {
   return must_be_positive({"sphere", "radius", "m"}, sphere.radius);
@@ -29,6 +32,17 @@ std::optional<SettingsProblem> geometry_problem(const CapsuleShape& capsule) {
 std::optional<SettingsProblem> geometry_problem(const CylinderShape& cylinder) {
   return first_problem({must_be_positive({"cylinder", "radius", "m"}, cylinder.radius),
                         must_be_positive({"cylinder", "length", "m"}, cylinder.length)});
+}
+
+std::optional<SettingsProblem> geometry_problem(const ConeShape& cone) {
+  return first_problem({must_be_positive({"cone", "radius", "m"}, cone.radius),
+                        must_be_positive({"cone", "length", "m"}, cone.length)});
+}
+
+std::optional<SettingsProblem> geometry_problem(const EllipsoidShape& ellipsoid) {
+  return first_problem({must_be_positive({"ellipsoid", "radius along x", "m"}, ellipsoid.radii.x()),
+                        must_be_positive({"ellipsoid", "radius along y", "m"}, ellipsoid.radii.y()),
+                        must_be_positive({"ellipsoid", "radius along z", "m"}, ellipsoid.radii.z())});
 }
 
 /// What makes the numbers of a mesh unusable, closed or not.
@@ -65,6 +79,38 @@ std::optional<SettingsProblem> geometry_problem(const MeshShape& shape) {
                            "give a scale other than zero along each axis"};
   }
   return content_problem(*shape.mesh);
+}
+
+std::optional<SettingsProblem> geometry_problem(const ConvexShape& convex) {
+  if (std::optional<SettingsProblem> problem = geometry_problem(MeshShape{convex.hull, convex.scale}))
+    return problem;
+  if (std::optional<SettingsProblem> problem = closedness_problem(*convex.hull)) return problem;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& vertex : convex.hull->vertices) box.extend(vertex);
+  const double bulge = bulge_of(*convex.hull);
+  if (bulge <= kConvexity * box.sizes().norm()) return std::nullopt;
+  return SettingsProblem{ProblemCode::OutOfRange,
+                         "convex: a vertex lies " + text_of(bulge) + " m outside the plane of a triangle",
+                         "give the mesh as it is, as a mesh, or make its convex_hull"};
+}
+
+std::optional<SettingsProblem> geometry_problem(const CompoundShape& compound) {
+  if (!compound.parts || compound.parts->empty()) {
+    return SettingsProblem{ProblemCode::OutOfRange, "compound: there are no parts", "give it at least one"};
+  }
+  for (std::size_t i = 0; i < compound.parts->size(); ++i) {
+    const Shape& part = (*compound.parts)[i];
+    const std::string place = "compound: part " + std::to_string(i) + ": ";
+    if (std::holds_alternative<CompoundShape>(part.geometry)) {
+      return SettingsProblem{ProblemCode::OutOfRange, place + "it is a compound itself",
+                             "give its parts instead"};
+    }
+    if (std::optional<SettingsProblem> problem = problem_with(part)) {
+      problem->text = place + problem->text;
+      return problem;
+    }
+  }
+  return std::nullopt;
 }
 
 /// An edge as one of its triangles runs along it. Ends are vertices after welding, low < high.
@@ -123,7 +169,8 @@ SettingsProblem edge_problem(const TriangleMesh& mesh, const HalfEdge& edge, boo
 }  // namespace
 
 std::string_view kind_of(const ShapeGeometry& geometry) noexcept {
-  constexpr std::array<std::string_view, 5> kNames{"sphere", "box", "capsule", "cylinder", "mesh"};
+  constexpr std::array<std::string_view, 9> kNames{"sphere", "box",       "capsule", "cylinder", "mesh",
+                                                   "cone",   "ellipsoid", "convex",  "compound"};
   static_assert(kNames.size() == std::variant_size_v<ShapeGeometry>);
   return kNames[geometry.index()];
 }

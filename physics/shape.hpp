@@ -29,6 +29,14 @@ struct CylinderShape {
   double length{1};    ///< full height along z [m], > 0
 };
 
+struct ConeShape {
+  double radius{0.5};  ///< of the base, at z = -length / 2 [m], > 0
+  double length{1};    ///< from the base to the tip, at z = length / 2 [m], > 0
+};
+struct EllipsoidShape {
+  Vector3 radii{0.5, 0.5, 0.5};  ///< half axes along x, y and z [m], each > 0
+};
+
 /// Triangles over shared vertices; counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Vector3> vertices{};                        ///< [m]
@@ -41,7 +49,20 @@ struct MeshShape {
   Vector3 scale{1, 1, 1};  ///< along the axes of S, not 0; a negative product mirrors
 };
 
-using ShapeGeometry = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, MeshShape>;
+/// A convex solid between the triangles of its surface; convex_hull makes them of points.
+struct ConvexShape {
+  std::shared_ptr<const TriangleMesh> hull{};  ///< closed and convex (to 1e-9 of its extent)
+  Vector3 scale{1, 1, 1};                      ///< as of a mesh
+};
+
+struct Shape;
+/// Several solids as one; where they overlap, mass counts twice.
+struct CompoundShape {
+  std::shared_ptr<const std::vector<Shape>> parts{};  ///< at least one, none of them a compound
+};
+
+using ShapeGeometry = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, MeshShape, ConeShape,
+                                   EllipsoidShape, ConvexShape, CompoundShape>;
 
 /// A solid with its pose in the body or node that carries it.
 struct Shape {
@@ -49,12 +70,13 @@ struct Shape {
   Pose X_BS{};
 };
 
-/// Lower-case name of the kind: "sphere", "box", "capsule", "cylinder", "mesh".
+/// Lower-case name of the kind: "sphere", "box", "capsule", "cylinder", "mesh", "cone", "ellipsoid",
+/// "convex", "compound".
 [[nodiscard]] std::string_view kind_of(const ShapeGeometry& geometry) noexcept;
 
 /// Numbers that are not finite or out of range, an orientation that is not of unit length, a mesh that is
-/// null or names vertices it does not have. A mesh may be open here: only mass_of and volume_of need a
-/// volume.
+/// null or names vertices it does not have, a hull that is not convex, a compound without parts or of
+/// compounds. A mesh may be open here: only mass_of and volume_of need a volume.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const Shape& shape);
 
 /// Why a mesh does not enclose a volume: an edge without or with a same-sensed neighbour, no volume beyond

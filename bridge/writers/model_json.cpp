@@ -46,6 +46,8 @@ void write_mesh_size(JsonStream& json, const std::shared_ptr<const TriangleMesh>
   json.member("triangles", mesh ? mesh->triangles.size() : 0);
 }
 
+void write_shapes(JsonStream& json, std::string_view key, const std::vector<Shape>& shapes);
+
 void write_geometry(JsonStream& json, const ShapeGeometry& geometry) {
   if (const auto* sphere = std::get_if<SphereShape>(&geometry)) {
     json.member("radius", sphere->radius);
@@ -58,17 +60,30 @@ void write_geometry(JsonStream& json, const ShapeGeometry& geometry) {
   } else if (const auto* mesh = std::get_if<MeshShape>(&geometry)) {
     write_mesh_size(json, mesh->mesh);
     json.member("scale", mesh->scale);
+  } else if (const auto* cone = std::get_if<ConeShape>(&geometry)) {
+    json.member("radius", cone->radius).member("length", cone->length);
+  } else if (const auto* ellipsoid = std::get_if<EllipsoidShape>(&geometry)) {
+    json.member("radii", ellipsoid->radii);
+  } else if (const auto* convex = std::get_if<ConvexShape>(&geometry)) {
+    write_mesh_size(json, convex->hull);
+    json.member("scale", convex->scale);
+  } else if (const auto* compound = std::get_if<CompoundShape>(&geometry)) {
+    write_shapes(json, "parts", *compound->parts);
   }
 }
 
-void write_solids(JsonStream& json, const ModelNode& node) {
-  json.key("shapes").begin_array();
-  for (const Shape& shape : node.shapes) {
+void write_shapes(JsonStream& json, std::string_view key, const std::vector<Shape>& shapes) {
+  json.key(key).begin_array();
+  for (const Shape& shape : shapes) {
     json.begin_object().member("kind", kind_of(shape.geometry));
     write_geometry(json, shape.geometry);
     json.member("position", shape.X_BS.p).member("quaternion_wxyz", shape.X_BS.q).end_object();
   }
   json.end_array();
+}
+
+void write_solids(JsonStream& json, const ModelNode& node) {
+  write_shapes(json, "shapes", node.shapes);
   json.key("meshes").begin_array();
   for (const ModelMesh& mesh : node.meshes) {
     json.begin_object();

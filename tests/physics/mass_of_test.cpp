@@ -11,6 +11,7 @@
 #include <support/meshes.hpp>
 #include <support/near.hpp>
 
+#include <pantin/physics/convex_hull.hpp>
 #include <pantin/physics/mass_properties.hpp>
 
 namespace pantin {
@@ -20,6 +21,8 @@ using test::near;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const Pose kTilted{{0.2, -0.1, 0.3}, Quaternion{0.8, 0.2, -0.4, 0.4}.normalized()};
 
 MassProperties diagonal(double mass, double x, double y, double z) {
   return {mass, Vector3::Zero(), Vector3(x, y, z).asDiagonal()};
@@ -65,6 +68,45 @@ TEST(MassOf, CapsuleIsItsThreeParts) {
   EXPECT_TRUE(near(mass_of({CapsuleShape{r, length}, {}}, density), combined(parts), 1e-15));
 }
 
+TEST(MassOf, ConeIsTheTextbookForm) {
+  // 3/10 m r^2 about the axis; 3/20 m r^2 + 3/5 m h^2 across through the tip, the centre of gravity 3/4 h
+  // away from it.
+  const double r = 0.6, h = 2, mass = 5 * kPi / 3 * r * r * h;
+  const MassProperties cone = mass_of({ConeShape{r, h}, {}}, 5);
+  const double through_tip = mass * (3.0 / 20 * r * r + 3.0 / 5 * h * h);
+  MassProperties expected = diagonal(mass, 0, 0, 0.3 * mass * r * r);
+  expected.p_BBcm = {0, 0, h / 2 - 3 * h / 4};
+  expected.I_BBcm_B(0, 0) = expected.I_BBcm_B(1, 1) = through_tip - mass * 9.0 / 16 * h * h;
+  EXPECT_TRUE(near(cone, expected, 1e-14));
+}
+
+TEST(MassOf, EllipsoidIsADeformedSphere) {
+  // Stretching a ball takes its second moments along; the mass grows by the product of the factors.
+  const Vector3 radii{0.5, 2, 1.25};
+  MassProperties ball = mass_of({SphereShape{1}, {}}, 3);
+  ball.mass *= radii.prod();
+  ball.I_BBcm_B *= radii.prod();
+  EXPECT_TRUE(near(mass_of({EllipsoidShape{radii}, {}}, 3), deformed(radii.asDiagonal(), ball), 1e-15));
+  EXPECT_TRUE(near(mass_of({EllipsoidShape{{2, 2, 2}}, {}}, 3), mass_of({SphereShape{2}, {}}, 3), 1e-15));
+}
+
+TEST(MassOf, ConvexIsTheSolidBetweenItsTriangles) {
+  // The hull of a box' corners is the box, scaled and mirrored alike.
+  const TriangleMesh box = test::box_mesh({1, 2, 3}, {0.5, 0.25, 1});
+  const auto hull = std::make_shared<const TriangleMesh>(convex_hull(box.vertices));
+  const Vector3 scale{-2, 1, 0.5};
+  EXPECT_TRUE(near(mass_of({ConvexShape{hull, scale}, kTilted}, 4),
+                   mass_of({test::mesh_shape(box, scale), kTilted}, 4), 1e-14));
+}
+
+TEST(MassOf, CompoundIsTheSumOfItsParts) {
+  // Additivity, wherever the parts stand: a box cut in two is the box.
+  const Pose left{{-0.5, 0, 0}, Quaternion::Identity()}, right{{0.5, 0, 0}, Quaternion::Identity()};
+  const CompoundShape halves{std::make_shared<const std::vector<Shape>>(
+      std::vector<Shape>{{BoxShape{{1, 2, 3}}, left}, {BoxShape{{1, 2, 3}}, right}})};
+  EXPECT_TRUE(near(mass_of({halves, kTilted}, 7), mass_of({BoxShape{{2, 2, 3}}, kTilted}, 7), 1e-14));
+}
+
 /// Sample mean with its standard error, per number.
 struct MonteCarlo {
   Eigen::Array<double, 10, 1> mean, error;
@@ -103,8 +145,6 @@ void expect_like_samples(const Shape& shape, double a, const std::function<bool(
     EXPECT_NEAR(expected[k], samples.mean[k], 5 * samples.error[k]) << "moment " << k;
 }
 
-const Pose kTilted{{0.2, -0.1, 0.3}, Quaternion{0.8, 0.2, -0.4, 0.4}.normalized()};
-
 TEST(MassOf, SolidsAgreeWithSampledPoints) {
   // Seeded points in a cube know nothing of the closed forms; five standard errors are passed by chance once
   // in 1e6.
@@ -121,6 +161,13 @@ TEST(MassOf, SolidsAgreeWithSampledPoints) {
   expect_like_samples({CapsuleShape{0.4, 1}, kTilted}, 1.5, [](const Vector3& p) {
     const Vector3 s = inverse(kTilted) * p;
     return (s - Vector3{0, 0, std::clamp(s.z(), -0.5, 0.5)}).norm() < 0.4;
+  });
+  expect_like_samples({ConeShape{0.6, 1.4}, kTilted}, 1.5, [](const Vector3& p) {
+    const Vector3 s = inverse(kTilted) * p;
+    return std::abs(s.z()) < 0.7 && s.head<2>().norm() < 0.6 * (0.7 - s.z()) / 1.4;
+  });
+  expect_like_samples({EllipsoidShape{{0.3, 0.6, 0.9}}, kTilted}, 1.5, [](const Vector3& p) {
+    return (inverse(kTilted) * p).cwiseQuotient(Vector3{0.3, 0.6, 0.9}).norm() < 1;
   });
 }
 

@@ -14,12 +14,16 @@ using test::expect_problem;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Shape, KnowsTheNameOfItsKind) {
-  // The five names of the header, in the order of the variant.
+  // The names of the header, in the order of the variant.
   EXPECT_EQ(kind_of(SphereShape{}), "sphere");
   EXPECT_EQ(kind_of(BoxShape{}), "box");
   EXPECT_EQ(kind_of(CapsuleShape{}), "capsule");
   EXPECT_EQ(kind_of(CylinderShape{}), "cylinder");
   EXPECT_EQ(kind_of(MeshShape{}), "mesh");
+  EXPECT_EQ(kind_of(ConeShape{}), "cone");
+  EXPECT_EQ(kind_of(EllipsoidShape{}), "ellipsoid");
+  EXPECT_EQ(kind_of(ConvexShape{}), "convex");
+  EXPECT_EQ(kind_of(CompoundShape{}), "compound");
 }
 
 TEST(ShapeProblem, NothingWithGoodShapes) {
@@ -34,7 +38,54 @@ TEST(ShapeProblem, NothingWithGoodShapes) {
   EXPECT_FALSE(problem_with({test::mesh_shape(open, {-1, 2, 1e-3}), {}}));
 }
 
+TEST(ShapeProblem, NothingWithConvexHullsAndCompounds) {
+  // A box is convex, scaled and mirrored too; a compound holds any other shapes.
+  const ConvexShape box{std::make_shared<const TriangleMesh>(test::box_mesh({1, 2, 3})), {-1, 2, 3}};
+  EXPECT_FALSE(problem_with({box, {}}));
+  EXPECT_FALSE(problem_with({ConeShape{}, {}}));
+  EXPECT_FALSE(problem_with({EllipsoidShape{}, {}}));
+  const CompoundShape both{
+      std::make_shared<const std::vector<Shape>>(std::vector<Shape>{{box, {}}, {ConeShape{}, {}}})};
+  EXPECT_FALSE(problem_with({both, {}}));
+}
+
 // One test a message.
+
+TEST(ShapeProblem, SaysWhatIsWrongWithAConeOrEllipsoid) {
+  // Each size is looked at.
+  expect_problem(problem_with({ConeShape{0, 1}, {}}), ProblemCode::OutOfRange, "cone: radius is 0 m");
+  expect_problem(problem_with({ConeShape{1, -1}, {}}), ProblemCode::OutOfRange, "cone: length is -1 m");
+  expect_problem(problem_with({EllipsoidShape{{0, 1, 1}}, {}}), ProblemCode::OutOfRange,
+                 "ellipsoid: radius along x is 0 m");
+  expect_problem(problem_with({EllipsoidShape{{1, 1, kNaN}}, {}}), ProblemCode::NotFinite,
+                 "ellipsoid: radius along z is nan m");
+}
+
+TEST(ShapeProblem, SaysWhereAHullIsNotConvexOrNotClosed) {
+  // An L of two boxes: the far corner of one is one metre outside the plane of the other's side.
+  const auto shared = [](const TriangleMesh& mesh) { return std::make_shared<const TriangleMesh>(mesh); };
+  const TriangleMesh angle = test::joined(test::box_mesh({2, 1, 1}), test::box_mesh({1, 3, 1}, {1.5, 1, 0}));
+  expect_problem(problem_with({ConvexShape{shared(angle)}, {}}), ProblemCode::OutOfRange,
+                 "m outside the plane of a triangle");
+  TriangleMesh open = test::box_mesh({1, 1, 1});
+  open.triangles.pop_back();
+  expect_problem(problem_with({ConvexShape{shared(open)}, {}}), ProblemCode::NotClosed, "one side only");
+  expect_problem(problem_with({ConvexShape{}, {}}), ProblemCode::OutOfRange, "there are no triangles");
+}
+
+TEST(ShapeProblem, SaysWhichPartOfACompoundIsWrong) {
+  // Without parts, of compounds, with a bad part: the part is named.
+  const auto of = [](std::vector<Shape> parts) {
+    return CompoundShape{std::make_shared<const std::vector<Shape>>(std::move(parts))};
+  };
+  expect_problem(problem_with({CompoundShape{}, {}}), ProblemCode::OutOfRange,
+                 "compound: there are no parts");
+  expect_problem(problem_with({of({}), {}}), ProblemCode::OutOfRange, "compound: there are no parts");
+  expect_problem(problem_with({of({{SphereShape{}, {}}, {of({{SphereShape{}, {}}}), {}}}), {}}),
+                 ProblemCode::OutOfRange, "compound: part 1: it is a compound itself");
+  expect_problem(problem_with({of({{SphereShape{-1}, {}}}), {}}), ProblemCode::OutOfRange,
+                 "compound: part 0: sphere: radius is -1 m");
+}
 
 TEST(ShapeProblem, SaysWhereARadiusIsNotPositive) {
   // A sphere, capsule or cylinder of no or negative radius has no volume.
