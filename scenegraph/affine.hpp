@@ -18,6 +18,14 @@ struct Matrix34 {
 
   static Matrix34 from(const Affine& M);
   [[nodiscard]] Affine affine() const;
+  /// No entry is infinite or not a number.
+  [[nodiscard]] bool is_finite() const noexcept {
+    // 0 times a finite number is 0 and times any other is none; four sums at once, without a branch.
+    std::array<double, 4> zeros{};
+    for (std::size_t row = 0; row < 12; row += 4)
+      for (std::size_t column = 0; column < 4; ++column) zeros[column] += 0 * m[row + column];
+    return (zeros[0] + zeros[1]) + (zeros[2] + zeros[3]) == 0;
+  }
   friend bool operator==(const Matrix34&, const Matrix34&) = default;
 };
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <bit>
 
 #include <pantin/scenegraph/dirty_set.hpp>
@@ -18,16 +17,6 @@ void DirtySet::grow(std::size_t count) {
   if (words <= words_.size()) return;
   words_.resize(words);
   summary_.resize((words + 63) / 64);
-}
-
-bool DirtySet::mark(std::uint32_t position) noexcept {
-  const std::size_t word = position >> 6;
-  const std::uint64_t bit = std::uint64_t{1} << (position & 63);
-  if ((words_[word] & bit) != 0) return false;
-  words_[word] |= bit;
-  summary_[word >> 6] |= std::uint64_t{1} << (word & 63);
-  lowest_ = std::min(lowest_, position);
-  return true;
 }
 
 void DirtySet::clean(std::uint32_t begin, std::uint32_t end) noexcept {

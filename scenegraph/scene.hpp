@@ -13,8 +13,11 @@
 #include <vector>
 
 #include <pantin/scenegraph/affine.hpp>
+#include <pantin/scenegraph/index_range.hpp>
+#include <pantin/scenegraph/instruction_set.hpp>
 #include <pantin/scenegraph/link.hpp>
 #include <pantin/scenegraph/node_id.hpp>
+#include <pantin/scenegraph/scene_memory.hpp>
 
 namespace pantin {
 
@@ -29,12 +32,6 @@ struct NodeLocal {
   Affine M_PN{Affine::Identity()};
 };
 
-/// Half-open range of positions in `Scene::order()` and `Scene::worlds()`.
-struct IndexRange {
-  std::size_t begin{0};
-  std::size_t end{0};
-};
-
 /// Owns all nodes. One root exists from the start, has no parent, an empty name and an empty path; its local
 /// matrix is its world matrix. Const members may be called from several threads at once. Every NodeId
 /// argument must be alive, or the contract is broken. Ids are of this scene alone: those of another cannot be
@@ -42,14 +39,20 @@ struct IndexRange {
 class Scene {
  public:
   Scene();
+  /// A scene whose updates use these instructions, which must run here. Results have the same bits with all.
+  explicit Scene(InstructionSet set);
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
   [[nodiscard]] NodeId root() const noexcept;
-  [[nodiscard]] std::size_t size() const noexcept;        ///< nodes, the root included
-  [[nodiscard]] bool contains(NodeId id) const noexcept;  ///< false for null and removed ids
+  [[nodiscard]] std::size_t size() const noexcept;                ///< nodes, the root included
+  [[nodiscard]] bool contains(NodeId id) const noexcept;          ///< false for null and removed ids
+  [[nodiscard]] InstructionSet instruction_set() const noexcept;  ///< in use; never Best
+  [[nodiscard]] SceneMemory memory() const;                       ///< visits all names and links
 
+  /// Makes room for so many nodes in all, so that creating them moves nothing.
+  void reserve(std::size_t nodes);
   /// Adds a node as the last child of `parent`. `M_PN` must be finite.
   NodeId create(NodeId parent, std::string_view name, const Affine& M_PN = Affine::Identity());
   /// Removes the node and all below it, with their links. Not the root.
@@ -71,6 +74,9 @@ class Scene {
   /// a name itself ends in such an index, '~2' stands for its '[': a node called "x[1]" is "x~21]", while
   /// "x[1]" is the second "x". Empty for the root.
   [[nodiscard]] std::string path(NodeId id) const;
+  /// The paths of many nodes, in one pass: `path` looks at all siblings of each node on the way up, so paths
+  /// one by one take the square of the nodes where these lie under few parents.
+  [[nodiscard]] std::vector<std::string> paths(std::span<const NodeId> ids) const;
   /// The node of that path, as `path` gives it ('[0]' may be left out); null if there is none; the root for
   /// "".
   [[nodiscard]] NodeId find(std::string_view path) const;
@@ -84,7 +90,10 @@ class Scene {
 
   [[nodiscard]] Affine local(NodeId id) const;
   void set_local(NodeId id, const Affine& M_PN);  ///< finite
+  /// Many at once; of several for one node the last counts.
   void set_locals(std::span<const NodeLocal> locals);
+  /// The same without copies: M_PN of ids[k] is by rows in locals[k]; as many of either.
+  void set_locals(std::span<const NodeId> ids, std::span<const Matrix34> locals);
   /// M_WN, never stale: reads through changed ancestors without writing, with the bits that `update` would
   /// give. O(1) if nothing changed before the node in `order()` since the last update, else O(depth).
   [[nodiscard]] Affine world(NodeId id) const;
@@ -93,9 +102,15 @@ class Scene {
   /// order again once there are more holes than a quarter, or more tails than a 256th, of the positions (and
   /// 32 of each).
   void update();
+  /// Puts the nodes into depth-first order now and gives back room to spare, but for one node in 64: at most
+  /// 220 bytes a node for matrices, topology and ids. Worth calling once after loading.
+  void compact();
   /// World matrices as of the last update, parents first. Here and in `order()` an entry of a removed node
-  /// stays as a hole until the next re-ordering. Valid until the next create, remove, set_parent or update.
+  /// stays as a hole until the next re-ordering. Valid until the next create, reserve, remove, set_parent,
+  /// compact or update.
   [[nodiscard]] std::span<const Matrix34> worlds() const noexcept;
+  /// Local matrices as they are now, each where its node stands in `worlds()`, and valid as long.
+  [[nodiscard]] std::span<const Matrix34> locals() const noexcept;
   /// Whose matrix each entry of `worlds()` is; null in a hole.
   [[nodiscard]] std::span<const NodeId> order() const noexcept;
   [[nodiscard]] std::size_t index_of(NodeId id) const;  ///< position in `order()` now

@@ -7,12 +7,14 @@
 #include <pantin/scenegraph/dirty_set.hpp>
 #include <pantin/scenegraph/scene.hpp>
 #include <pantin/scenegraph/scene_storage.hpp>
+#include <pantin/scenegraph/sweep.hpp>
 
 namespace pantin {
 
 struct Scene::Impl {
   static constexpr std::uint32_t kNone = SceneStorage::kNone;
 
+  SweepKernel kernel{};
   SceneStorage nodes{};
   DirtySet dirty{};
   std::vector<std::string> names{std::string{}};    ///< by index of the id
@@ -25,7 +27,11 @@ struct Scene::Impl {
   std::vector<std::uint32_t> scratch{};  ///< positions, reused by members that write
 
   /// Position of a node; that it is alive is a contract.
-  [[nodiscard]] std::uint32_t at(NodeId id) const;
+  [[nodiscard]] std::uint32_t at(NodeId id) const {
+    if (!nodes.contains(id)) reject(id);
+    return nodes.position(id);
+  }
+  void reject(NodeId id) const;  ///< breaks the contract, in words
   [[nodiscard]] NodeId id(std::uint32_t at) const { return nodes.order()[at]; }
   [[nodiscard]] const std::string& name(std::uint32_t at) const { return names[id(at).index]; }
   [[nodiscard]] std::string path(std::uint32_t at) const;
@@ -40,15 +46,19 @@ struct Scene::Impl {
   /// M_WN of the node `at`, given its climb.
   [[nodiscard]] Matrix34 read_through(std::uint32_t at, std::size_t stale) const;
 
-  void mark(std::uint32_t at);
-  void set_local(std::uint32_t at, const Affine& M_PN);
+  void mark(std::uint32_t at) {
+    dirty.grow(nodes.end());
+    if (dirty.mark(at)) ++pending;
+  }
+  void set_local(std::uint32_t at, const Matrix34& M_PN);
+  void set_local(std::uint32_t at, const Affine& M_PN) { set_local(at, Matrix34::from(M_PN)); }
   void compact();
   /// Keeps memory and walks linear under endless creating and removing without updates.
   void compact_if_mostly_holes();
   /// For edits that read worlds: reads through, but sweeps once the climbing would cost more than that.
   [[nodiscard]] Matrix34 world_for_edit(std::uint32_t at);
   void sweep_dirty();
-  void sweep_range(std::uint32_t begin, std::uint32_t end);
+  void compute_worlds();  ///< of what `changed` lists
   [[nodiscard]] bool was_swept(std::uint32_t at) const;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <unordered_set>
 
 #include <pantin/scenegraph/scene_impl.hpp>
 
@@ -19,17 +20,17 @@ std::size_t index_suffix(std::string_view text) {
   return open;
 }
 
-std::string escaped(std::string_view name) {
+/// Adds '/' where something stands before, the escaped name, and the number in brackets if there is one.
+void append_segment(std::string& out, std::string_view name, std::optional<std::size_t> number) {
+  if (!out.empty()) out += '/';
   const std::size_t open = index_suffix(name);
-  std::string out;
-  out.reserve(name.size());
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == '~') out += "~0";
     else if (name[i] == '/') out += "~1";
     else if (i == open) out += "~2";
     else out += name[i];
   }
-  return out;
+  if (number) out += '[' + std::to_string(*number) + ']';
 }
 
 std::optional<std::string> unescaped(std::string_view text) {
@@ -66,6 +67,64 @@ std::optional<Segment> parse(std::string_view text) {
   return segment;
 }
 
+/// Writes paths of one scene. Siblings are counted once for each parent, and what the last path has in common
+/// with the next is kept, so that a subtree in its order is written in one pass.
+class PathWriter {
+ public:
+  PathWriter(const SceneStorage& nodes, const std::vector<std::string>& names)
+      : nodes_{nodes}, names_{names} {}
+
+  const std::string& write(std::uint32_t at) {
+    while (!above_.empty() && !nodes_.is_above(above_.back().at, at)) above_.pop_back();
+    const std::uint32_t shared = above_.empty() ? 0 : above_.back().at;
+    path_.resize(above_.empty() ? 0 : above_.back().length);
+    rest_.clear();
+    for (; at != shared; at = nodes_.parent(at)) rest_.push_back(at);
+    while (!rest_.empty()) {
+      const std::uint32_t node = rest_.back();
+      rest_.pop_back();
+      const std::uint32_t parent = nodes_.parent(node);
+      if (counted_.insert(parent).second) number_children(parent);
+      const auto number = numbers_.find(node);
+      append_segment(path_, name(node),
+                     number == numbers_.end() ? std::nullopt : std::optional{number->second});
+      above_.push_back({node, path_.size()});
+    }
+    return path_;
+  }
+
+ private:
+  struct Written {
+    std::uint32_t at{0};
+    std::size_t length{0};  ///< of the path up to here
+  };
+  struct Name {
+    std::uint32_t first{0};
+    std::size_t count{0};
+  };
+
+  [[nodiscard]] const std::string& name(std::uint32_t at) const { return names_[nodes_.order()[at].index]; }
+
+  void number_children(std::uint32_t parent) {
+    std::unordered_map<std::string_view, Name> names;
+    nodes_.for_each_child(parent, [&](std::uint32_t child) {
+      const auto [entry, is_new] = names.try_emplace(name(child), Name{child, 0});
+      const std::size_t number = entry->second.count++;
+      if (number == 1) numbers_.try_emplace(entry->second.first, 0);
+      if (number > 0 || entry->first.empty()) numbers_.try_emplace(child, number);
+      return true;
+    });
+  }
+
+  const SceneStorage& nodes_;
+  const std::vector<std::string>& names_;
+  std::string path_{};
+  std::vector<Written> above_{};  ///< the nodes of path_, from the child of the root down
+  std::vector<std::uint32_t> rest_{};
+  std::unordered_set<std::uint32_t> counted_{};               ///< parents whose children are numbered
+  std::unordered_map<std::uint32_t, std::size_t> numbers_{};  ///< of the nodes whose segment has one
+};
+
 }  // namespace
 
 std::string Scene::Impl::path(std::uint32_t at) const {
@@ -81,9 +140,7 @@ std::string Scene::Impl::path(std::uint32_t at) const {
       if (name(sibling) == own) ++same;
       return true;
     });
-    if (!out.empty()) out += '/';
-    out += escaped(own);
-    if (own.empty() || same > 1) out += '[' + std::to_string(number) + ']';
+    append_segment(out, own, own.empty() || same > 1 ? std::optional{number} : std::nullopt);
   }
   return out;
 }
@@ -93,6 +150,14 @@ std::string Scene::Impl::called(std::uint32_t at) const {
 }
 
 std::string Scene::path(NodeId id) const { return impl_->path(impl_->at(id)); }
+
+std::vector<std::string> Scene::paths(std::span<const NodeId> ids) const {
+  std::vector<std::string> paths;
+  paths.reserve(ids.size());
+  PathWriter writer{impl_->nodes, impl_->names};
+  for (const NodeId id : ids) paths.push_back(writer.write(impl_->at(id)));
+  return paths;
+}
 
 NodeId Scene::find(std::string_view path) const {
   if (path.empty()) return root();

@@ -50,12 +50,7 @@ std::vector<std::uint32_t> SceneStorage::compact() {
   tail_lists_.clear();
   holes_ = 0;
   last_open_ = kNone;
-  const std::size_t room = from.size() + from.size() / kNodesPerSpare;
-  parent_.reserve(room);
-  size_.reserve(room);
-  local_.reserve(room);
-  world_.reserve(room);
-  order_.reserve(room);
+  reserve(from.size() + from.size() / kNodesPerSpare);
   slots_.shrink_to_fit();
   for (const std::uint32_t at : from) {
     const std::uint32_t above = at == 0 ? kNone : position(order[parent[at]]);
@@ -64,10 +59,22 @@ std::vector<std::uint32_t> SceneStorage::compact() {
   return from;
 }
 
-std::size_t SceneStorage::bytes() const noexcept {
-  return (parent_.capacity() + size_.capacity()) * sizeof(std::uint32_t) +
-         (local_.capacity() + world_.capacity()) * sizeof(Matrix34) + order_.capacity() * sizeof(NodeId) +
-         slots_.capacity() * sizeof(Slot);
+void SceneStorage::reserve(std::size_t nodes) {
+  parent_.reserve(nodes);
+  size_.reserve(nodes);
+  local_.reserve(nodes);
+  world_.reserve(nodes);
+  order_.reserve(nodes);
+}
+
+void SceneStorage::add_bytes(SceneMemory& memory) const noexcept {
+  memory.matrices += (local_.capacity() + world_.capacity()) * sizeof(Matrix34);
+  memory.topology +=
+      (parent_.capacity() + size_.capacity()) * sizeof(std::uint32_t) + tails_.capacity() * sizeof(Tail);
+  if (!tail_lists_.empty())
+    memory.topology += tail_lists_.bucket_count() * sizeof(void*) +
+                       tail_lists_.size() * (sizeof(void*) + sizeof(std::pair<std::uint32_t, TailList>));
+  memory.ids += order_.capacity() * sizeof(NodeId) + slots_.capacity() * sizeof(Slot);
 }
 
 void SceneStorage::collect(std::uint32_t top, std::vector<std::uint32_t>& out) const {

@@ -20,6 +20,7 @@
 
 #include <pantin/scenegraph/affine.hpp>
 #include <pantin/scenegraph/node_id.hpp>
+#include <pantin/scenegraph/scene_memory.hpp>
 
 namespace pantin {
 
@@ -50,7 +51,10 @@ class SceneStorage {
   [[nodiscard]] std::uint32_t end() const noexcept { return static_cast<std::uint32_t>(parent_.size()); }
   [[nodiscard]] std::size_t holes() const noexcept { return holes_; }
   [[nodiscard]] std::size_t alive() const noexcept { return parent_.size() - holes_; }
-  [[nodiscard]] std::size_t bytes() const noexcept;  ///< held by arrays and tables, tails left out
+  /// Makes room for so many nodes in all.
+  void reserve(std::size_t nodes);
+  /// Adds what its arrays and tables hold.
+  void add_bytes(SceneMemory& memory) const noexcept;
 
   [[nodiscard]] std::uint32_t parent(std::uint32_t at) const noexcept {
     return parent_[at];

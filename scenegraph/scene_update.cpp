@@ -6,7 +6,6 @@
 #include <array>
 
 #include <pantin/scenegraph/scene_impl.hpp>
-#include <pantin/scenegraph/sweep.hpp>
 
 namespace pantin {
 namespace {
@@ -30,6 +29,13 @@ void Scene::Impl::compact() {
     if (dirty.test(from[i])) moved.mark(i);
   dirty = std::move(moved);
   all_changed = true;
+}
+
+void Scene::compact() {
+  impl_->compact();
+  impl_->names.shrink_to_fit();
+  impl_->scratch = std::vector<std::uint32_t>{};
+  ++impl_->pending;  // the next update has to say that all nodes may stand elsewhere
 }
 
 void Scene::Impl::compact_if_mostly_holes() {
@@ -62,7 +68,6 @@ void Scene::Impl::sweep_dirty() {
     if (begin == DirtySet::kNone) break;
     const std::uint32_t end = begin + nodes.extent(begin);
     dirty.clean(begin, end);
-    sweep_range(begin, end);
     if (!changed.empty() && changed.back().end == begin) changed.back().end = end;
     else changed.push_back({begin, end});
     from = end;
@@ -70,11 +75,25 @@ void Scene::Impl::sweep_dirty() {
   }
   dirty.forget_lowest();
   climbed = 0;
+  compute_worlds();
 }
 
-void Scene::Impl::sweep_range(std::uint32_t begin, std::uint32_t end) {
-  if (begin == 0) nodes.worlds()[0] = nodes.locals()[0], begin = 1;
-  sweep(nodes.locals().data(), nodes.parents().data(), nodes.worlds().data(), begin, end);
+void Scene::Impl::compute_worlds() {
+  static_assert(sizeof(Matrix34) == 12 * sizeof(double),
+                "the kernels see the matrices as one run of doubles");
+  if (changed.empty()) return;
+  std::span<IndexRange> ranges = changed;
+  const bool with_root = ranges.front().begin == 0;
+  if (with_root) {
+    // The root has no parent to be multiplied by.
+    nodes.worlds()[0] = nodes.locals()[0];
+    if (++ranges.front().begin == ranges.front().end) ranges = ranges.subspan(1);
+  }
+  // Without tails, parents of swept nodes lie in the same range or in none.
+  SweepFunction* const sweep = nodes.tails() == 0 ? kernel.sweep_independent : kernel.sweep;
+  sweep(nodes.locals().data()->m.data(), nodes.parents().data(), nodes.worlds().data()->m.data(),
+        ranges.data(), ranges.size());
+  if (with_root) changed.front().begin = 0;
 }
 
 bool Scene::Impl::was_swept(std::uint32_t at) const {

@@ -45,12 +45,13 @@ std::string geometry_of(const ModelNode& node) {
 void print_nodes(std::ostream& out, const ModelInScene& view) {
   TextTable table;
   table.add({"path", "link", "range", "value", "mass [kg]", "position [m]", "geometry"});
+  const std::vector<std::string> paths = view.scene.paths(view.nodes);
   for (std::size_t i = 0; i < view.model.nodes.size(); ++i) {
     const ModelNode& node = view.model.nodes[i];
     const NodeId id = view.nodes[i];
     const Link* link = node.link ? view.scene.link(id) : nullptr;
     const Vector3 position = view.scene.world(id).translation();
-    table.add({view.scene.path(id), link_of(node), node.link ? range_of(*node.link) : "",
+    table.add({paths[i], link_of(node), node.link ? range_of(*node.link) : "",
                link != nullptr ? joined(link->value.numbers()) : "",
                node.mass ? short_number(node.mass->mass) : "-",
                joined(std::span<const double>{position.data(), 3}), geometry_of(node)});

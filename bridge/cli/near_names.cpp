@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace pantin::cli {
@@ -72,10 +73,8 @@ std::string suggestion(std::string_view wanted, const std::vector<std::string>& 
 }
 
 std::vector<std::string> all_paths(const Scene& scene) {
-  std::vector<std::string> paths;
-  for (const NodeId id : scene.subtree(scene.root()))
-    if (id != scene.root()) paths.push_back(scene.path(id));
-  return paths;
+  const std::vector<NodeId> nodes = scene.subtree(scene.root());
+  return scene.paths(std::span{nodes}.subspan(1));  // all but the root
 }
 
 Diagnostic argument_error(std::string_view option, std::string_view argument, std::string problem,

@@ -15,11 +15,18 @@ LinkKeys::LinkKeys(const Scene& scene) : scene_{&scene} {
 }
 
 std::string LinkKeys::key(NodeId id) const {
-  if (const Link* link = scene_->link(id)) {
-    const auto entry = by_name_.find(link->name);
-    if (entry != by_name_.end() && entry->second == id) return link->name;
-  }
-  return scene_->path(id);
+  return has_own_name(id) ? scene_->link(id)->name : scene_->path(id);
+}
+
+std::string LinkKeys::key(NodeId id, const std::string& path) const {
+  return has_own_name(id) ? scene_->link(id)->name : path;
+}
+
+bool LinkKeys::has_own_name(NodeId id) const {
+  const Link* link = scene_->link(id);
+  if (link == nullptr) return false;
+  const auto entry = by_name_.find(link->name);
+  return entry != by_name_.end() && entry->second == id;
 }
 
 NodeId LinkKeys::find(std::string_view key) const {
@@ -30,7 +37,8 @@ NodeId LinkKeys::find(std::string_view key) const {
 std::vector<std::string> LinkKeys::all() const {
   std::vector<std::string> keys;
   keys.reserve(linked_.size());
-  for (const NodeId id : linked_) keys.push_back(key(id));
+  const std::vector<std::string> paths = scene_->paths(linked_);
+  for (std::size_t i = 0; i < linked_.size(); ++i) keys.push_back(key(linked_[i], paths[i]));
   return keys;
 }
 

@@ -17,6 +17,8 @@ class LinkKeys {
 
   /// The key of the link at a node; the node's path if it had none at construction.
   [[nodiscard]] std::string key(NodeId id) const;
+  /// The same where the node's path is known; a path costs most of it.
+  [[nodiscard]] std::string key(NodeId id, const std::string& path) const;
   /// The node whose link has this key, or whose path this is; null if there is none. A path need not be a
   /// link's.
   [[nodiscard]] NodeId find(std::string_view key) const;
@@ -24,6 +26,8 @@ class LinkKeys {
   [[nodiscard]] std::vector<std::string> all() const;
 
  private:
+  [[nodiscard]] bool has_own_name(NodeId id) const;
+
   const Scene* scene_;
   std::vector<NodeId> linked_{};
   std::unordered_map<std::string, NodeId> by_name_{};  ///< unique names only

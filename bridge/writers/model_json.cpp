@@ -103,13 +103,14 @@ void write_mass(JsonStream& json, const std::optional<MassProperties>& mass) {
   }
 }
 
-void write_node(JsonStream& json, const ModelInScene& view, std::size_t i) {
+/// `paths` are those of all nodes.
+void write_node(JsonStream& json, const ModelInScene& view, std::span<const std::string> paths,
+                std::size_t i) {
   const ModelNode& node = view.model.nodes[i];
   const NodeId id = view.nodes[i];
-  json.begin_object().member("path", view.scene.path(id)).member("name", node.name);
+  json.begin_object().member("path", paths[i]).member("name", node.name);
   json.key("parent");
-  node.parent < 0 ? json.null()
-                  : json.value(view.scene.path(view.nodes[static_cast<std::size_t>(node.parent)]));
+  node.parent < 0 ? json.null() : json.value(paths[static_cast<std::size_t>(node.parent)]);
   json.member("local", view.scene.local(id)).member("absolute", view.scene.world(id));
   json.key("link");
   const Link* placed = view.scene.link(id);
@@ -139,7 +140,8 @@ void write_model_json(std::ostream& out, const ModelInScene& view, std::span<con
   mass ? json.value(*mass) : json.null();
 
   json.key("nodes").begin_array(JsonLayout::Lines);
-  for (std::size_t i = 0; i < view.model.nodes.size(); ++i) write_node(json, view, i);
+  const std::vector<std::string> paths = view.scene.paths(view.nodes);
+  for (std::size_t i = 0; i < view.model.nodes.size(); ++i) write_node(json, view, paths, i);
   json.end_array();
 
   json.key("clips").begin_array(JsonLayout::Lines);

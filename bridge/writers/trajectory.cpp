@@ -6,10 +6,12 @@ TrajectoryRecorder::TrajectoryRecorder(const Scene& scene, const PhysicsManager&
                                        const Bridge& bridge)
     : scene_{scene}, physics_{physics}, bridge_{bridge}, keys_{scene} {}
 
-const TrajectoryRecorder::Names& TrajectoryRecorder::names_of(NodeId id) {
-  const auto [entry, is_new] = names_.try_emplace(id);
-  if (is_new) entry->second = {scene_.path(id), keys_.key(id)};
-  return entry->second;
+void TrajectoryRecorder::name_new(std::span<const NodeId> bound) {
+  std::vector<NodeId> fresh;
+  for (const NodeId id : bound)
+    if (!names_.contains(id)) fresh.push_back(id);
+  const std::vector<std::string> paths = scene_.paths(fresh);
+  for (std::size_t i = 0; i < fresh.size(); ++i) names_[fresh[i]] = {paths[i], keys_.key(fresh[i], paths[i])};
 }
 
 const Sample& TrajectoryRecorder::record() {
@@ -17,10 +19,12 @@ const Sample& TrajectoryRecorder::record() {
   sample_.energy = physics_.energy();
   sample_.bodies.clear();
   sample_.joints.clear();
-  for (const NodeId id : bridge_.bound()) {
+  const std::vector<NodeId> bound = bridge_.bound();
+  name_new(bound);
+  for (const NodeId id : bound) {
     const RigidBody body = physics_.body(bridge_.body_of(id));
     const Pose X_WB = body.X_WB();
-    const Names& names = names_of(id);
+    const Names& names = names_.at(id);
     sample_.bodies.push_back({.path = names.path,
                               .drive = bridge_.drive_of(id).value_or(Drive::Static),
                               .p_WB = X_WB.p,

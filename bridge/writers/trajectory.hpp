@@ -2,6 +2,7 @@
 // What a run looks like at one time, taken from a bridge, and who receives it. Only bound nodes have a body
 // and are listed; a node that is handed over later appears from then on.
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -55,7 +56,7 @@ class TrajectoryRecorder {
     std::string path{};
     std::string link_key{};
   };
-  const Names& names_of(NodeId id);
+  void name_new(std::span<const NodeId> bound);
 
   const Scene& scene_;
   const PhysicsManager& physics_;

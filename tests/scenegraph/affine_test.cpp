@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <support/random_affine.hpp>
 
 namespace pantin {
@@ -20,6 +21,23 @@ TEST(Matrix34, RoundTripKeepsEveryBit) {
   for (int k = 0; k < 100; ++k) {
     const Affine M = test::random_affine(random);
     EXPECT_EQ(Matrix34::from(M).affine().matrix(), M.matrix());
+  }
+}
+
+TEST(Matrix34, IsFiniteUnlessAnEntryIsNot) {
+  // Each entry in turn; the greatest numbers and the smallest are finite.
+  Matrix34 M;
+  M.m.fill(std::numeric_limits<double>::max());
+  EXPECT_TRUE(M.is_finite());
+  M.m.fill(-std::numeric_limits<double>::denorm_min());
+  EXPECT_TRUE(M.is_finite());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (const double bad : {kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+      Matrix34 broken;
+      broken.m[i] = bad;
+      EXPECT_FALSE(broken.is_finite());
+    }
   }
 }
 

@@ -89,6 +89,8 @@ TEST(Million, FanIsBuiltMovedAndRemoved) {
   EXPECT_EQ(scene.children(plant.first), plant.ids);
   EXPECT_EQ(scene.find("first/leaf[999999]"), plant.ids.back());
   EXPECT_EQ(scene.path(plant.ids.back()), "first/leaf[999999]");
+  const std::vector<std::string> paths = scene.paths(plant.ids);
+  for (std::size_t k = 0; k < kMillion; ++k) ASSERT_EQ(paths[k], "first/leaf[" + std::to_string(k) + "]");
   scene.remove(plant.first);
   EXPECT_EQ(scene.size(), 2U);
 }

@@ -80,6 +80,18 @@ TEST(Path, BracketsThatAreNoNumberStayPlain) {
   }
 }
 
+TEST(Paths, AreThoseOfTheNodesInTheirOrder) {
+  // Repeated ids, the root, and equal siblings of which one was asked for alone.
+  Scene scene;
+  const NodeId a = scene.create(scene.root(), "a");
+  scene.create(a, "x");
+  const NodeId second = scene.create(a, "x");
+  const NodeId b = scene.create(scene.root(), "b");
+  EXPECT_EQ(scene.paths(std::array{second, scene.root(), b, second, a}),
+            (std::vector<std::string>{"a/x[1]", "", "b", "a/x[1]", "a"}));
+  EXPECT_TRUE(scene.paths({}).empty());
+}
+
 TEST(Find, IsNullForWhatIsNotThere) {
   // Unknown names, numbers past the last, bad escapes, numbers too long for any count, slashes too many.
   Scene scene;
@@ -105,6 +117,14 @@ TEST(Path, FindGivesBackEveryNode) {
         name += pieces[test::pick(random, pieces.size())];
       ids.push_back(scene.create(ids[test::pick(random, std::min<std::size_t>(ids.size(), 8))], name));
     }
+    // In order, from the last to the first, and at random: what the writer keeps from one to the next
+    // differs.
+    std::vector<NodeId> asked = scene.subtree(scene.root());
+    asked.insert(asked.end(), ids.rbegin(), ids.rend());
+    for (int n = 0; n < 20; ++n) asked.push_back(ids[test::pick(random, ids.size())]);
+    const std::vector<std::string> together = scene.paths(asked);
+    ASSERT_EQ(together.size(), asked.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) ASSERT_EQ(together[i], scene.path(asked[i]));
     std::set<std::string> paths;
     for (const NodeId id : ids) {
       const std::string path = scene.path(id);
