@@ -40,7 +40,6 @@ NodePart& part_of(AnimatedNode& entry, Play& play) {
   });
   NodePart& part = *entry.parts.insert(above, NodePart{});
   part.play = &play;
-  if (play.settings.blend == Blend::Additive) part.reference = std::make_unique<NodePose<double>>();
   return part;
 }
 
@@ -49,9 +48,9 @@ NodePart& part_of(AnimatedNode& entry, Play& play) {
 SharedClip::SharedClip(Clip clip) {
   const std::string problem = problem_with(clip);
   PANTIN_EXPECTS(problem.empty(), problem);
-  prepared_ = std::make_shared<const PreparedClip>(std::make_shared<const Clip>(std::move(clip)));
+  prepared_ = std::make_shared<const PreparedClip>(std::move(clip));
 }
-const Clip& SharedClip::clip() const noexcept { return *prepared_->clip; }
+const Clip& SharedClip::clip() const noexcept { return prepared_->clip; }
 
 int AnimatedNode::width(std::size_t channel) const {
   if (channel == static_cast<std::size_t>(Channel::LinkValue)) return link ? value_size(link->kind) : 0;
@@ -87,18 +86,20 @@ std::string called(NodeId id) {
 }
 
 void Player::Impl::set_rest(const Scene& scene, AnimatedNode& entry, Channel channel) const {
+  NodePose<double> pose{};
   if (channel == Channel::LinkValue) {
-    entry.link = *scene.link(entry.node);
+    entry.link = std::make_unique<const Link>(*scene.link(entry.node));
     const std::span<const double> numbers = entry.link->value.numbers();
-    std::copy(numbers.begin(), numbers.end(), pantin::at(entry.rest, channel).begin());
-    return;
+    std::copy(numbers.begin(), numbers.end(), pantin::at(pose, channel).begin());
+  } else {
+    const Trs rest = *decompose(scene.local(entry.node));
+    const Vector3 &p = rest.translation, &s = rest.scale;
+    const Quaternion& q = rest.rotation;
+    pantin::at(pose, Channel::Translation) = {p.x(), p.y(), p.z()};
+    pantin::at(pose, Channel::Rotation) = {q.w(), q.x(), q.y(), q.z()};
+    pantin::at(pose, Channel::Scale) = {s.x(), s.y(), s.z()};
   }
-  const Trs rest = *decompose(scene.local(entry.node));
-  const Quaternion& q = rest.rotation;
-  pantin::at(entry.rest, Channel::Translation) = {rest.translation.x(), rest.translation.y(),
-                                                  rest.translation.z()};
-  pantin::at(entry.rest, Channel::Rotation) = {q.w(), q.x(), q.y(), q.z()};
-  pantin::at(entry.rest, Channel::Scale) = {rest.scale.x(), rest.scale.y(), rest.scale.z()};
+  entry.rest = std::make_unique<const NodePose<double>>(pose);
 }
 
 void Player::Impl::bind(const Scene& scene, Play& play, const std::vector<NodeId>& targets) {
@@ -117,10 +118,15 @@ void Player::Impl::bind(const Scene& scene, Play& play, const std::vector<NodeId
     NodePart& part = part_of(animated[found->second], play);
     const std::size_t channel = static_cast<std::size_t>(track.channel);
     part.tracks[channel] = &prepared;
-    part.share[channel] = share;
-    if (part.reference)
+    const bool is_additive = play.settings.blend == Blend::Additive;
+    if (!part.blend && (share != 1 || is_additive)) {
+      part.blend = std::make_unique<PartBlend>();
+      part.blend->share.fill(1);
+    }
+    if (part.blend) part.blend->share[channel] = share;
+    if (is_additive)
       sample_values(prepared, {.time = play.settings.reference}, part.cursors[channel],
-                    (*part.reference)[channel]);
+                    part.blend->reference[channel]);
     part.is_root_source = play.settings.root && play.settings.root->source == node;
   }
   if (play.settings.root) bind_carrier(scene, play);
@@ -177,7 +183,7 @@ Player& Player::operator=(Player&&) noexcept = default;
 
 PlayId Player::play(const Scene& scene, SharedClip clip, const std::vector<NodeId>& targets,
                     PlayerSettings settings) {
-  const std::string problem = problem_with(*this, scene, clip.clip(), targets, settings);
+  const std::string problem = impl_->problem_with_play(scene, clip.clip(), targets, settings);
   PANTIN_EXPECTS(problem.empty(), problem);
   Impl& impl = *impl_;
   impl.settle_carriers();

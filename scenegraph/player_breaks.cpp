@@ -33,11 +33,8 @@ double next_key(std::span<const PreparedTrack* const> tracks, const ClockReading
 bool has_switches(const AnimatedNode& node) {
   if (node.parts.size() > 1) return true;
   const NodePart& part = node.parts.front();
-  if (part.reference || !part.play->settings.weight.is_constant()) return true;
-  for (std::size_t c = 0; c < kChannels; ++c)
-    if (part.tracks[c] != nullptr && part.share[c] * sample(part.play->settings.weight, 0).value != 1)
-      return true;
-  return false;
+  const Curve& weight = part.play->settings.weight;
+  return part.blend || !weight.is_constant() || sample(weight, 0).value != 1;
 }
 
 }  // namespace

@@ -37,23 +37,30 @@ struct PlayReading {
   S weight{};
 };
 
-/// What one play has to say about one node.
+/// How a play is blended into a node, where it does not simply have all of it.
+struct PartBlend {
+  std::array<double, kChannels> share{};  ///< channel weight x mask
+  NodePose<double> reference{};           ///< of an Additive play
+};
+
+/// What one play has to say about one node. Kept small: a crowd is many of these.
 struct NodePart {
   Play* play{nullptr};
   std::array<const PreparedTrack*, kChannels> tracks{};  ///< by channel, null where there is none
-  std::array<double, kChannels> share{};                 ///< channel weight x mask
   std::array<KeyCursor, kChannels> cursors{};            ///< for apply
-  std::unique_ptr<NodePose<double>> reference{};         ///< of an Additive play
+  std::unique_ptr<PartBlend> blend{};                    ///< null for Override with all shares 1
   bool is_root_source{false};
+
+  [[nodiscard]] double share(std::size_t channel) const { return blend ? blend->share[channel] : 1; }
 };
 
 /// One node and what animates it.
 struct AnimatedNode {
   NodeId node{};
-  NodePose<double> rest{};        ///< for what no clip animates
-  std::optional<Link> link{};     ///< of a node with LinkValue tracks, as when the first play began
-  std::vector<NodePart> parts{};  ///< by layer, then by age
   bool is_held{false};
+  std::vector<NodePart> parts{};       ///< by layer, then by age
+  std::unique_ptr<const Link> link{};  ///< of a node with LinkValue tracks, as when the first play began
+  std::unique_ptr<const NodePose<double>> rest{};  ///< for what no clip animates
 
   [[nodiscard]] int width(std::size_t channel) const;
 };
@@ -92,6 +99,11 @@ struct Player::Impl {
   void drop_unused();
   /// Carriers go on from where they are, whatever changes now.
   void settle_carriers();
+
+  /// `problem_with` for a clip whose keys have no problem (player_problems.cpp).
+  [[nodiscard]] std::string problem_with_play(const Scene& scene, const Clip& clip,
+                                              const std::vector<NodeId>& targets,
+                                              const PlayerSettings& settings);
 
   // Poses (player_pose.cpp)
   [[nodiscard]] NodePose<Jet> pose(const AnimatedNode& node, double time, const BlendSide& side) const;

@@ -41,10 +41,7 @@ bool is_override(const NodePart& part) { return part.play->settings.blend == Ble
 /// Whether the only play of a node has all of it.
 template <class S>
 bool is_alone(const NodePart& part, const S& weight) {
-  if (!is_override(part) || !is_exactly(weight, 1)) return false;
-  for (std::size_t c = 0; c < kChannels; ++c)
-    if (part.tracks[c] != nullptr && part.share[c] != 1) return false;
-  return true;
+  return !part.blend && is_exactly(weight, 1);
 }
 
 /// Builds up the pose of one node at one time.
@@ -53,20 +50,20 @@ class PoseBuilder {
  public:
   /// `cursors`: the node's own parts, where their cursors may be moved; else empty.
   PoseBuilder(const AnimatedNode& node, double time, const BlendSide& side, std::span<NodePart> cursors)
-      : node_{node}, time_{time}, side_{side}, cursors_{cursors} {
-    for (std::size_t c = 0; c < kChannels; ++c)
-      for (std::size_t i = 0; i < pose_[c].size(); ++i) pose_[c][i] = node.rest[c][i];
-  }
+      : node_{node}, time_{time}, side_{side}, cursors_{cursors} {}
 
-  NodePose<S> built() {
+  const NodePose<S>& built() {
     const std::vector<NodePart>& parts = node_.parts;
     if (parts.size() == 1) {
       const PlayReading<S> reading = this->reading(0);
       if (is_alone(parts[0], reading.weight)) {
+        for (std::size_t c = 0; c < kChannels; ++c)
+          if (parts[0].tracks[c] == nullptr) rest(c);
         sample_part(0, reading.clock, pose_);
         return pose_;
       }
     }
+    for (std::size_t c = 0; c < kChannels; ++c) rest(c);
     for (std::size_t begin = 0, end; begin < parts.size(); begin = end) {
       const int layer = parts[begin].play->settings.layer;
       for (end = begin + 1; end < parts.size() && parts[end].play->settings.layer == layer;) ++end;
@@ -78,6 +75,10 @@ class PoseBuilder {
   }
 
  private:
+  void rest(std::size_t c) {
+    const ChannelValue<double>& value = (*node_.rest)[c];
+    for (std::size_t i = 0; i < value.size(); ++i) pose_[c][i] = value[i];
+  }
   [[nodiscard]] PlayReading<S> reading(std::size_t i) const {
     return read(*node_.parts[i].play, time_, side_.is_before ? KeySide::Before : KeySide::After, S{});
   }
@@ -96,7 +97,7 @@ class PoseBuilder {
       NodePose<S> values{};
       sample_part(i, reading.clock, values);
       for (std::size_t c = 0; c < kChannels; ++c)
-        if (part.tracks[c] != nullptr) mixers[c].add(values[c], reading.weight * S{part.share[c]});
+        if (part.tracks[c] != nullptr) mixers[c].add(values[c], reading.weight * S{part.share(c)});
     }
     for (std::size_t c = 0; c < kChannels; ++c) mixers[c].finish(pose_[c]);
   }
@@ -109,8 +110,8 @@ class PoseBuilder {
     for (std::size_t c = 0; c < kChannels; ++c) {
       if (part.tracks[c] == nullptr) continue;
       const AddedAs added = c == std::size_t(Channel::Scale) ? AddedAs::Ratio : AddedAs::Difference;
-      add_on_top(parts_of(node_.width(c)), added, values[c], (*part.reference)[c],
-                 S{reading.weight * S{part.share[c]}}, side_, pose_[c]);
+      add_on_top(parts_of(node_.width(c)), added, values[c], part.blend->reference[c],
+                 S{reading.weight * S{part.share(c)}}, side_, pose_[c]);
     }
   }
 
@@ -141,7 +142,8 @@ void Player::Impl::read_now() {
 }
 
 void Player::Impl::apply(AnimatedNode& node, Scene& scene) {
-  const NodePose<double> pose = PoseBuilder<double>{node, time, {}, node.parts}.built();
+  PoseBuilder<double> builder{node, time, {}, node.parts};
+  const NodePose<double>& pose = builder.built();
   NodeLocal local{.node = node.node};
   if (!node.link) {
     local.M_PN.affine() = trs_matrix(pose);
@@ -159,8 +161,13 @@ void Player::apply(Scene& scene) {
   Impl& impl = *impl_;
   impl.read_now();
   impl.locals.clear();
-  for (AnimatedNode& node : impl.animated)
+  const std::size_t count = impl.animated.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    // A crowd does not fit into the cache: what comes soon is fetched while this node is computed.
+    if (i + 4 < count) __builtin_prefetch(impl.animated[i + 4].parts.data());
+    AnimatedNode& node = impl.animated[i];
     if (!node.is_held && scene.contains(node.node)) impl.apply(node, scene);
+  }
   for (const Carrier& carrier : impl.carriers) {
     if (carrier.is_held || !scene.contains(carrier.node)) continue;
     NodeLocal local{.node = carrier.node};

@@ -27,18 +27,18 @@ std::string node_called(const Scene& scene, NodeId node) {
 }
 
 std::string problem_with_node(const Scene& scene, const Track& track, NodeId node) {
-  const std::string node_name = node_called(scene, node);
   if (track.channel != Channel::LinkValue) {
     if (decompose(scene.local(node))) return {};
-    return "local matrix of " + node_name +
+    return "local matrix of " + node_called(scene, node) +
            " is sheared, so it is no product of translation, rotation and scale that " +
            "a clip could animate; put the shear into a node above or below it";
   }
   const Link* link = scene.link(node);
-  if (link == nullptr) return node_name + " has no link whose value could be animated";
+  if (link == nullptr) return node_called(scene, node) + " has no link whose value could be animated";
   if (value_size(link->kind) == track.width) return {};
-  return "the " + std::string{to_string(link->kind)} + " link of " + node_name + " has a value of " +
-         std::to_string(value_size(link->kind)) + " numbers, the track of " + std::to_string(track.width);
+  return "the " + std::string{to_string(link->kind)} + " link of " + node_called(scene, node) +
+         " has a value of " + std::to_string(value_size(link->kind)) + " numbers, the track of " +
+         std::to_string(track.width);
 }
 
 /// Which channels of each node are taken.
@@ -98,38 +98,28 @@ std::string problem_with_root(const PlayerSettings& settings) {
   return {};
 }
 
-/// What a clip's tracks do to its targets' nodes.
-std::string problem_with_tracks(const Scene* scene, const Clip& clip, const std::vector<NodeId>& targets) {
-  TakenChannels taken;
-  for (std::size_t k = 0; k < clip.tracks.size(); ++k) {
-    const Track& track = clip.tracks[k];
-    const std::string where = "track " + std::to_string(k) + ": ";
-    if (std::string text = problem_with(track); !text.empty()) return where + text;
-    if (track.times.back() > clip.duration)
-      return where + "last key at " + std::to_string(track.times.back()) + " s is after the clip's end at " +
-             std::to_string(clip.duration) + " s";
-    if (scene == nullptr) continue;
-    if (track.target >= targets.size())
-      return where + "target " + std::to_string(track.target) + " has no entry among the " +
-             std::to_string(targets.size()) + " nodes given";
-    const NodeId node = targets[track.target];
-    if (!node) continue;
-    if (!scene->contains(node))
-      return where + "the node of target " + std::to_string(track.target) + " was removed";
-    if (std::string text = problem_with_channels(*scene, track, node, taken); !text.empty())
-      return where + text;
-    if (std::string text = problem_with_node(*scene, track, node); !text.empty()) return where + text;
-  }
-  return {};
+std::string track_called(const Clip& clip, std::size_t k) {
+  return "clip '" + clip.name + "', track " + std::to_string(k) + ": ";
 }
 
-std::string problem_with_all(const Scene* scene, const Clip& clip, const std::vector<NodeId>& targets) {
-  const std::string clip_name = "clip '" + clip.name + "'";
-  if (!std::isfinite(clip.duration)) return clip_name + ": duration is not finite";
-  if (std::string text = problem_with_tracks(scene, clip, targets); !text.empty())
-    return clip_name + ", " + text;
-  if (clip.duration < 0) return clip_name + ": duration is negative";
-  if (std::string text = problem_with_events(clip); !text.empty()) return clip_name + ": " + text;
+/// What a track does to the node of its target.
+std::string problem_with_target(const Scene& scene, const Track& track, const std::vector<NodeId>& targets,
+                                TakenChannels& taken) {
+  if (track.target >= targets.size())
+    return "target " + std::to_string(track.target) + " has no entry among the " +
+           std::to_string(targets.size()) + " nodes given";
+  const NodeId node = targets[track.target];
+  if (!node) return {};
+  if (!scene.contains(node)) return "the node of target " + std::to_string(track.target) + " was removed";
+  if (std::string text = problem_with_channels(scene, track, node, taken); !text.empty()) return text;
+  return problem_with_node(scene, track, node);
+}
+
+std::string problem_with_targets(const Scene& scene, const Clip& clip, const std::vector<NodeId>& targets) {
+  TakenChannels taken;
+  for (std::size_t k = 0; k < clip.tracks.size(); ++k)
+    if (std::string text = problem_with_target(scene, clip.tracks[k], targets, taken); !text.empty())
+      return track_called(clip, k) + text;
   return {};
 }
 
@@ -196,31 +186,52 @@ std::string problem_with(const PlayerSettings& settings, const Clip& clip) {
   return problem_with_root(settings);
 }
 
-std::string problem_with(const Clip& clip) { return problem_with_all(nullptr, clip, {}); }
+std::string problem_with(const Clip& clip) {
+  const std::string clip_name = "clip '" + clip.name + "': ";
+  if (!std::isfinite(clip.duration)) return clip_name + "duration is not finite";
+  for (std::size_t k = 0; k < clip.tracks.size(); ++k) {
+    const Track& track = clip.tracks[k];
+    if (std::string text = problem_with(track); !text.empty()) return track_called(clip, k) + text;
+    if (track.times.back() > clip.duration)
+      return track_called(clip, k) + "last key at " + std::to_string(track.times.back()) +
+             " s is after the clip's end at " + std::to_string(clip.duration) + " s";
+  }
+  if (clip.duration < 0) return clip_name + "duration is negative";
+  if (std::string text = problem_with_events(clip); !text.empty()) return clip_name + text;
+  return {};
+}
 
 std::string problem_with(const Scene& scene, const Clip& clip, const std::vector<NodeId>& targets) {
-  return problem_with_all(&scene, clip, targets);
+  if (std::string text = problem_with(clip); !text.empty()) return text;
+  return problem_with_targets(scene, clip, targets);
 }
 
 std::string problem_with(const Player& player, const Scene& scene, const Clip& clip,
                          const std::vector<NodeId>& targets, const PlayerSettings& settings) {
-  if (std::string text = problem_with(scene, clip, targets); !text.empty()) return text;
-  if (std::string text = problem_with(settings, clip); !text.empty()) return text;
+  if (std::string text = problem_with(clip); !text.empty()) return text;
+  return player.impl_->problem_with_play(scene, clip, targets, settings);
+}
+
+std::string Player::Impl::problem_with_play(const Scene& scene, const Clip& clip,
+                                            const std::vector<NodeId>& targets,
+                                            const PlayerSettings& settings) {
+  if (std::string text = problem_with_targets(scene, clip, targets); !text.empty()) return text;
+  if (std::string text = pantin::problem_with(settings, clip); !text.empty()) return text;
   if (std::string text = problem_with_reference(clip, settings); !text.empty()) return text;
   for (const SubtreeWeight& entry : settings.mask)
     if (!scene.contains(entry.top)) return "a node of the mask is null or was removed";
   if (settings.root) {
     if (std::string text = problem_with_root(scene, clip, targets, *settings.root); !text.empty())
       return text;
-    if (player.impl_->find(settings.root->carrier) != nullptr)
+    if (find(settings.root->carrier) != nullptr)
       return "root motion: another play animates the carrier, " + node_called(scene, settings.root->carrier);
   }
   for (const Track& track : clip.tracks) {
     const NodeId node = targets[track.target];
-    if (player.is_carrier(node))
+    if (carrier(node) != nullptr)
       return node_called(scene, node) + " is moved by the root motion of another play";
-    const AnimatedNode* other = player.impl_->find(node);
-    if (other != nullptr && other->link.has_value() != (track.channel == Channel::LinkValue))
+    const AnimatedNode* other = find(node);
+    if (other != nullptr && (other->link != nullptr) != (track.channel == Channel::LinkValue))
       return "link value and matrix of " + node_called(scene, node) +
              " would both be animated, by this play and another; the link's value gives the matrix";
   }

@@ -1,38 +1,52 @@
 #pragma once
 // Private to scenegraph. A clip with what sampling needs again and again computed once. Many players share
 // one.
+//
+// All that a key has to say up to the next one stands in one row, so that sampling touches little memory:
+//   time, then for each part of the value
+//     Step, Linear   numbers: the value;  rotations: an arc: from (4), across (4), angle
+//     CubicSpline    numbers: in-tangent, value, out-tangent of each;  rotations: the same, then the unit key
+//     (4)
+// An arc is a turn at constant speed to the next key's quaternion: q(f) = cos(f) from + sin(f) across, f from
+// 0 to `angle`. `across` is orthogonal to `from` and of length 1, or 0 if there is no turn.
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include <pantin/scenegraph/clip.hpp>
 
 namespace pantin {
 
-/// A turn at constant speed from one unit quaternion to another: q(f) = cos(f) from + sin(f) across, f from 0
-/// to `angle`. `across` is orthogonal to `from` and of length 1, or 0 if there is no turn.
-struct Arc {
-  Eigen::Vector4d from{Eigen::Vector4d::Zero()};
-  Eigen::Vector4d across{Eigen::Vector4d::Zero()};
-  double angle{0};  ///< [rad], between the quaternions as 4-vectors: half the angle of the rotation
-};
+/// How many numbers a row of this track has; at most 26.
+[[nodiscard]] std::size_t row_size(const Track& track) noexcept;
+/// Fills in the row of key k.
+void fill_row(const Track& track, std::size_t k, double* row);
 
 struct PreparedTrack {
-  const Track* track{nullptr};
-  std::vector<Arc> arcs{};  ///< from each key to the next; empty if the track has no rotation
+  explicit PreparedTrack(const Track& given);
+
+  [[nodiscard]] const double* row(std::size_t k) const noexcept { return rows.data() + k * stride; }
+
+  const Track* track;
+  std::size_t stride;
+  std::vector<double> rows{};
 };
 
 struct PreparedClip {
   /// The clip must have no problem.
-  explicit PreparedClip(std::shared_ptr<const Clip> given);
+  explicit PreparedClip(Clip given) : clip{std::move(given)} {
+    tracks.reserve(clip.tracks.size());
+    for (const Track& track : clip.tracks) tracks.emplace_back(track);
+  }
+  PreparedClip(const PreparedClip&) = delete;  // the tracks point into the clip
+  PreparedClip& operator=(const PreparedClip&) = delete;
 
-  std::shared_ptr<const Clip> clip;
+  Clip clip;
   std::vector<PreparedTrack> tracks{};  ///< as in the clip
 };
 
-/// A place in a track: the key that begins the interval, counted from 1 so that 0 is before the first.
+/// A place in a track: the number of keys passed.
 using KeyCursor = std::uint32_t;
 
 /// Where and how to sample.

@@ -8,7 +8,7 @@
 // Slerp from q0 to q1, A the angle between them as 4-vectors, f = uA, and e = (q1 - cos(A) q0) / sin(A),
 // which is of length 1 and orthogonal to q0:  q = cos(f) q0 + sin(f) e,  q' = A/d (-sin(f) q0 + cos(f) e),
 // q'' =
-// -(A/d)^2 q. A and e are taken from q1 - q0, which keeps them accurate for nearly equal keys.
+// -(A/d)^2 q.
 #include <algorithm>
 #include <cmath>
 
@@ -28,31 +28,16 @@ struct RotationSample {
   Vector4 second{Vector4::Zero()};
 };
 
-Vector4 unit_key(const double* numbers) { return Eigen::Map<const Vector4>{numbers}.stableNormalized(); }
-
-/// From a key's quaternion to the next one's; the last key's own.
-Arc arc_from(const Track& track, std::size_t k, int first) {
-  Arc arc;
-  arc.from = unit_key(key_value(track, k) + first);
-  if (k + 1 == track.times.size() || track.interpolation != Interpolation::Linear) return arc;
-  Vector4 to = unit_key(key_value(track, k + 1) + first);
-  if (arc.from.dot(to) < 0) to = -to;
-  const Vector4 chord = to - arc.from;
-  arc.angle = 2 * std::atan2(chord.norm(), (to + arc.from).norm());
-  const Vector4 across = chord + (chord.squaredNorm() / 2) * arc.from;  // 1 - cos(angle) = |chord|^2 / 2
-  if (across.norm() > 0) arc.across = across.normalized();
-  return arc;
-}
-
 template <bool kDerivatives>
-RotationSample slerp(const Arc& arc, double u, double d) {
-  const double f = u * arc.angle;
-  const double c = std::cos(f), s = std::sin(f);
+RotationSample slerp(const double* arc, double u, double d) {
+  const Eigen::Map<const Vector4> from{arc}, across{arc + 4};
+  const double angle = arc[8];
+  const double c = std::cos(u * angle), s = std::sin(u * angle);
   RotationSample out;
-  out.value = c * arc.from + s * arc.across;
+  out.value = c * from + s * across;
   if constexpr (!kDerivatives) return out;
-  const double rate = arc.angle / d;
-  out.first = rate * (c * arc.across - s * arc.from);
+  const double rate = angle / d;
+  out.first = rate * (c * across - s * from);
   out.second = -rate * rate * out.value;
   return out;
 }
@@ -82,210 +67,203 @@ RotationSample normalised(const RotationSample& p) {
   return q;
 }
 
-/// Numbers of a sample that are being filled in; the derivatives only where they are wanted.
+/// Where the numbers of a sample go; the derivatives only where they are wanted.
 struct SampleNumbers {
   double* value;
   double* first;
   double* second;
-
-  template <bool kDerivatives>
-  void set(std::size_t at, const RotationSample& q) const {
-    for (int j = 0; j < 4; ++j) {
-      const std::size_t i = at + static_cast<std::size_t>(j);
-      value[i] = q.value[j];
-      if constexpr (!kDerivatives) continue;
-      first[i] = q.first[j];
-      second[i] = q.second[j];
-    }
-  }
 };
 
-/// A track between keys k and k + 1.
+/// What lies between two rows of a track.
 template <bool kDerivatives>
 class Interval {
  public:
-  Interval(const Track& track, std::size_t k, double time, const SampleNumbers& out)
-      : track_{track},
-        k_{k},
-        d_{track.times[k + 1] - track.times[k]},
-        u_{(time - track.times[k]) / d_},
-        out_{out} {}
+  Interval(const Track& track, const double* left, const double* right, double time)
+      : parts_{parts_of(track)},
+        left_{left + 1},
+        right_{right + 1},
+        d_{*right - *left},
+        u_{(time - *left) / d_} {}
 
-  void numbers(const TrackPart& part) const {
-    const std::size_t begin = static_cast<std::size_t>(part.first);
-    const std::size_t end = begin + static_cast<std::size_t>(part.count);
-    if (track_.interpolation == Interpolation::Linear) {
-      const double* left = key_value(track_, k_);
-      const double* right = key_value(track_, k_ + 1);
-      for (std::size_t i = begin; i < end; ++i) {
-        out_.value[i] = (1 - u_) * left[i] + u_ * right[i];
-        if constexpr (kDerivatives) out_.first[i] = (right[i] - left[i]) / d_;
+  void linear(SampleNumbers out) {
+    for (const TrackPart& part : parts_) {
+      if (part.is_rotation) {
+        set(slerp<kDerivatives>(left_, u_, d_), out);
+        pass(9);
+      } else {
+        for (int i = 0; i < part.count; ++i) {
+          out.value[i] = (1 - u_) * left_[i] + u_ * right_[i];
+          if constexpr (kDerivatives) out.first[i] = (right_[i] - left_[i]) / d_;
+        }
+        pass(part.count);
       }
-      return;
-    }
-    const HermiteWeights weights{u_, d_};
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vector4 controls = this->controls(static_cast<int>(i));
-      out_.value[i] = weights.value.dot(controls);
-      if constexpr (!kDerivatives) continue;
-      out_.first[i] = weights.first.dot(controls);
-      out_.second[i] = weights.second.dot(controls);
+      skip(part.count, out);
     }
   }
 
-  /// `arc` is that from key k, of a linear track.
-  void rotation(const TrackPart& part, const Arc& arc) const {
-    const std::size_t first = static_cast<std::size_t>(part.first);
-    if (track_.interpolation == Interpolation::Linear)
-      return out_.set<kDerivatives>(first, slerp<kDerivatives>(arc, u_, d_));
+  void cubic(SampleNumbers out) {
     const HermiteWeights weights{u_, d_};
-    RotationSample p;
-    for (int j = 0; j < 4; ++j) {
-      const Vector4 controls = this->controls(part.first + j);
-      p.value[j] = weights.value.dot(controls);
-      p.first[j] = weights.first.dot(controls);
-      p.second[j] = weights.second.dot(controls);
+    for (const TrackPart& part : parts_) {
+      if (part.is_rotation) {
+        set(cubic_rotation(weights), out);
+        pass(16);
+      } else {
+        for (int i = 0; i < part.count; ++i) {
+          const Vector4 controls = this->controls(i);
+          out.value[i] = weights.value.dot(controls);
+          if constexpr (!kDerivatives) continue;
+          out.first[i] = weights.first.dot(controls);
+          out.second[i] = weights.second.dot(controls);
+        }
+        pass(3 * part.count);
+      }
+      skip(part.count, out);
     }
-    const double* left = key_value(track_, k_) + part.first;
-    const double* right = key_value(track_, k_ + 1) + part.first;
-    const double scale = Eigen::Map<const Vector4>{left}.norm() + Eigen::Map<const Vector4>{right}.norm();
-    const bool is_rotation = p.value.norm() > 1e-9 * scale;
-    out_.set<kDerivatives>(first, is_rotation ? normalised(p)
-                                              : RotationSample{unit_key(u_ < 0.5 ? left : right),
-                                                               Vector4::Zero(), Vector4::Zero()});
   }
 
  private:
-  /// v_k, b_k, v_{k+1}, a_{k+1} of number j.
-  [[nodiscard]] Vector4 controls(int j) const {
-    const double* left = key_value(track_, k_);
-    const double* right = key_value(track_, k_ + 1);
-    return {left[j], left[j + track_.width], right[j], right[j - track_.width]};
+  /// v_k, b_k, v_{k+1}, a_{k+1} of number i of the part.
+  [[nodiscard]] Vector4 controls(int i) const {
+    return {left_[3 * i + 1], left_[3 * i + 2], right_[3 * i + 1], right_[3 * i]};
+  }
+  /// Where the curve passes through 0 there is no rotation: the nearer key, at rest.
+  [[nodiscard]] RotationSample cubic_rotation(const HermiteWeights& weights) const {
+    RotationSample p;
+    double scale = 0;
+    for (int j = 0; j < 4; ++j) {
+      const Vector4 controls = this->controls(j);
+      p.value[j] = weights.value.dot(controls);
+      p.first[j] = weights.first.dot(controls);
+      p.second[j] = weights.second.dot(controls);
+      scale += std::abs(controls[0]) + std::abs(controls[2]);
+    }
+    if (p.value.norm() > 1e-9 * scale) return normalised(p);
+    RotationSample key;
+    key.value = Eigen::Map<const Vector4>{(u_ < 0.5 ? left_ : right_) + 12};
+    return key;
+  }
+  void pass(int numbers) {
+    left_ += numbers;
+    right_ += numbers;
+  }
+  static void skip(int numbers, SampleNumbers& out) {
+    out.value += numbers;
+    if constexpr (!kDerivatives) return;
+    out.first += numbers;
+    out.second += numbers;
+  }
+  static void set(const RotationSample& q, const SampleNumbers& out) {
+    Eigen::Map<Vector4>{out.value} = q.value;
+    if constexpr (!kDerivatives) return;
+    Eigen::Map<Vector4>{out.first} = q.first;
+    Eigen::Map<Vector4>{out.second} = q.second;
   }
 
-  const Track& track_;
-  std::size_t k_;
+  std::span<const TrackPart> parts_;
+  const double* left_;
+  const double* right_;
   double d_;
   double u_;
-  SampleNumbers out_;
 };
 
-/// Number of keys at or before (side After) or before (side Before) a time, looked for around the cursor
-/// first.
-std::size_t keys_before(const std::vector<double>& times, double time, KeySide side, KeyCursor& cursor) {
-  const auto is_passed = [&](std::size_t k) {
-    return side == KeySide::After ? times[k] <= time : times[k] < time;
-  };
-  std::size_t right = cursor;
-  for (int tries = 0; tries < 2 && right <= times.size(); ++tries, ++right) {
-    if ((right == 0 || is_passed(right - 1)) && (right == times.size() || !is_passed(right))) {
-      cursor = static_cast<KeyCursor>(right);
-      return right;
+/// The value of a key, from its row.
+void hold(const Track& track, const double* row, double* value) {
+  const bool is_cubic = track.interpolation == Interpolation::CubicSpline;
+  ++row;
+  for (const TrackPart& part : parts_of(track)) {
+    if (part.is_rotation) {
+      if (is_cubic) row += 12;
+      value = std::copy(row, row + 4, value);
+      row += is_cubic ? 4 : 9;
+    } else {
+      for (int i = 0; i < part.count; ++i) *value++ = row[is_cubic ? 3 * i + 1 : i];
+      row += is_cubic ? 3 * part.count : part.count;
     }
   }
+}
+
+template <bool kDerivatives>
+void interpolate(const Track& track, const double* left, const double* right, double time,
+                 const SampleNumbers& out) {
+  Interval<kDerivatives> interval{track, left, right, time};
+  if (track.interpolation == Interpolation::Linear) interval.linear(out);
+  else interval.cubic(out);
+}
+
+bool is_passed(double key, double time, KeySide side) {
+  return side == KeySide::After ? key <= time : key < time;
+}
+
+/// Number of keys at or before (side After) or before (side Before) a time.
+std::size_t keys_before(const std::vector<double>& times, double time, KeySide side) {
   const auto beyond = side == KeySide::After ? std::upper_bound(times.begin(), times.end(), time)
                                              : std::lower_bound(times.begin(), times.end(), time);
-  right = static_cast<std::size_t>(beyond - times.begin());
-  cursor = static_cast<KeyCursor>(right);
-  return right;
+  return static_cast<std::size_t>(beyond - times.begin());
 }
 
-/// The same, after moving a time onto the key that it is meant to hit.
-std::size_t locate(const std::vector<double>& times, SamplePoint& at, KeyCursor& cursor) {
-  const std::size_t right = keys_before(times, at.time, at.side, cursor);
-  const bool hits_left = right > 0 && at.time - times[right - 1] <= at.slack;
-  const bool hits_right = right < times.size() && times[right] - at.time <= at.slack;
-  if (!hits_left && !hits_right) return right;
-  const std::size_t key = hits_left ? right - 1 : right;
-  at.time = times[key];
-  return at.side == KeySide::After ? key + 1 : key;
+/// The same, looked for at the cursor and right after it first.
+std::size_t keys_before(const PreparedTrack& track, double time, KeySide side, KeyCursor& cursor) {
+  const std::size_t count = track.track->times.size();
+  std::size_t right = cursor;
+  if (right > 0 && right <= count && is_passed(*track.row(right - 1), time, side)) {
+    if (right < count && is_passed(*track.row(right), time, side)) ++right;
+    if (right == count || !is_passed(*track.row(right), time, side))
+      return cursor = static_cast<KeyCursor>(right);
+  }
+  return cursor = static_cast<KeyCursor>(keys_before(track.track->times, time, side));
 }
 
-/// `arc_of(k, first)` gives the arc from key k for the rotation that begins at number `first`.
-template <bool kDerivatives, class ArcOf>
-void sample_at(const Track& track, SamplePoint at, KeyCursor& cursor, const ArcOf& arc_of,
+template <bool kDerivatives>
+void sample_at(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor,
                const SampleNumbers& out) {
-  const std::size_t right = locate(track.times, at, cursor);
+  const Track& track = *prepared.track;
+  const std::size_t count = track.times.size();
+  std::size_t right = keys_before(prepared, at.time, at.side, cursor);
+  double time = at.time;
+  // A time that is meant to hit a key is moved onto it.
+  const bool hits_left = right > 0 && time - *prepared.row(right - 1) <= at.slack;
+  const bool hits_right = right < count && *prepared.row(right) - time <= at.slack;
+  if (hits_left || hits_right) {
+    const std::size_t key = hits_left ? right - 1 : right;
+    time = *prepared.row(key);
+    right = at.side == KeySide::After ? key + 1 : key;
+  }
   const std::size_t left = right == 0 ? 0 : right - 1;
-  const bool is_held =
-      right == 0 || right == track.times.size() || track.interpolation == Interpolation::Step;
-  if (is_held) {
-    for (const TrackPart& part : parts_of(track)) {
-      if (part.is_rotation) {
-        Eigen::Map<Vector4>{out.value + part.first} = arc_of(left, part.first).from;
-      } else {
-        const double* key = key_value(track, left) + part.first;
-        std::copy(key, key + part.count, out.value + part.first);
-      }
-    }
-    return;
-  }
-  const Interval<kDerivatives> interval{track, left, at.time, out};
-  for (const TrackPart& part : parts_of(track)) {
-    if (part.is_rotation) interval.rotation(part, arc_of(left, part.first));
-    else interval.numbers(part);
-  }
+  if (right == 0 || right == count || track.interpolation == Interpolation::Step)
+    hold(track, prepared.row(left), out.value);
+  else interpolate<kDerivatives>(track, prepared.row(left), prepared.row(right), time, out);
 }
 
 }  // namespace
-
-std::span<const TrackPart> parts_of(int width) noexcept {
-  static constexpr TrackPart kNumbers[] = {{0, 1, false}};
-  static constexpr TrackPart kVector[] = {{0, 3, false}};
-  static constexpr TrackPart kRotation[] = {{0, 4, true}};
-  static constexpr TrackPart kPose[] = {{0, 3, false}, {3, 4, true}};
-  switch (width) {
-    case 1:
-      return kNumbers;
-    case 3:
-      return kVector;
-    case 4:
-      return kRotation;
-    case 7:
-      return kPose;
-    default:
-      return {};
-  }
-}
 
 TrackSample sample(const Track& track, double time, KeySide side) {
   PANTIN_EXPECTS(!track.times.empty() && track.values.size() == track.times.size() * values_per_key(track),
                  "a track of " + std::to_string(track.times.size()) + " keys with " +
                      std::to_string(track.values.size()) + " numbers cannot be sampled; see problem_with");
   PANTIN_EXPECTS(!std::isnan(time), "the time to sample at is not a number");
+  const std::size_t right = keys_before(track.times, time, side);
+  std::array<double, 26> left_row, right_row;
+  fill_row(track, right == 0 ? 0 : right - 1, left_row.data());
   TrackSample out;
-  KeyCursor cursor = 0;
-  sample_at<true>(track, {time, side, 0}, cursor,
-                  [&](std::size_t k, int first) { return arc_from(track, k, first); },
-                  {out.value.data(), out.first.data(), out.second.data()});
+  if (right == 0 || right == track.times.size() || track.interpolation == Interpolation::Step) {
+    hold(track, left_row.data(), out.value.data());
+    return out;
+  }
+  fill_row(track, right, right_row.data());
+  interpolate<true>(track, left_row.data(), right_row.data(), time,
+                    {out.value.data(), out.first.data(), out.second.data()});
   return out;
 }
 
 TrackSample sample(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor) {
   TrackSample out;
-  sample_at<true>(*prepared.track, at, cursor,
-                  [&](std::size_t k, int) -> const Arc& { return prepared.arcs[k]; },
-                  {out.value.data(), out.first.data(), out.second.data()});
+  sample_at<true>(prepared, at, cursor, {out.value.data(), out.first.data(), out.second.data()});
   return out;
 }
 
 void sample_values(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor,
                    std::array<double, 7>& values) {
-  sample_at<false>(*prepared.track, at, cursor,
-                   [&](std::size_t k, int) -> const Arc& { return prepared.arcs[k]; },
-                   {values.data(), nullptr, nullptr});
-}
-
-PreparedClip::PreparedClip(std::shared_ptr<const Clip> given) : clip{std::move(given)} {
-  tracks.reserve(clip->tracks.size());
-  for (const Track& track : clip->tracks) {
-    tracks.push_back({.track = &track});
-    for (const TrackPart& part : parts_of(track)) {
-      if (!part.is_rotation) continue;
-      for (std::size_t k = 0; k < track.times.size(); ++k)
-        tracks.back().arcs.push_back(arc_from(track, k, part.first));
-    }
-  }
+  sample_at<false>(prepared, at, cursor, {values.data(), nullptr, nullptr});
 }
 
 }  // namespace pantin
