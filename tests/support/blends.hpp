@@ -37,4 +37,31 @@ inline void expect_derivatives(const Player& player, NodeId node, double t) {
       << "at " << t;
 }
 
+/// x stands at a number.
+inline Clip stands_at(double x) {
+  return clip({track(Channel::Translation, Interpolation::Step, {0}, {x, 0, 0})}, 1);
+}
+/// Turned about z by an angle.
+inline Clip turned_by(double angle) {
+  return clip(
+      {track(Channel::Rotation, Interpolation::Step, {0}, {std::cos(angle / 2), 0, 0, std::sin(angle / 2)})},
+      1);
+}
+
+struct OneNode {
+  Scene scene{};
+  NodeId node = scene.create(scene.root(), "node");
+  Player player{};
+
+  PlayId play(Clip given, PlayerSettings settings = {}) {
+    return player.play(scene, std::move(given), {node}, std::move(settings));
+  }
+  [[nodiscard]] double x(double t = 0) const { return player.motion(node, t).value(0, 3); }
+  /// Angle about z.
+  [[nodiscard]] double angle(double t = 0) const {
+    const Eigen::Matrix<double, 3, 4> M = player.motion(node, t).value;
+    return std::atan2(M(1, 0), M(0, 0));
+  }
+};
+
 }  // namespace pantin::test
