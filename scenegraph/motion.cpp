@@ -78,6 +78,11 @@ RotationMotion pivot_at(const Vector3& axis, const Jet& angle) {
   return R;
 }
 
+/// Translation along a fixed direction.
+VectorMotion slide_at(const Vector3& direction, const Jet& distance) {
+  return {distance.value * direction, distance.first * direction, distance.second * direction};
+}
+
 }  // namespace
 
 LocalMotion trs_motion(const NodePose<Jet>& pose) {
@@ -134,7 +139,7 @@ LocalMotion link_motion(const Link& link, const ChannelValue<Jet>& value) {
       R = pivot_at(link.axis, value[0]);
       break;
     case LinkKind::Slider:
-      t = {value[0].value * link.axis, value[0].first * link.axis, value[0].second * link.axis};
+      t = slide_at(link.axis, value[0]);
       break;
     case LinkKind::Ball:
       R = rotation_at(value, 0);

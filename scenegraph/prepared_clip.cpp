@@ -32,13 +32,16 @@ void fill_arc(const Track& track, std::size_t k, int first, double* arc) {
 }  // namespace
 
 std::span<const TrackPart> parts_of(int width) noexcept {
-  static constexpr TrackPart kNumbers[] = {{0, 1, false}};
+  static constexpr TrackPart kNumber[] = {{0, 1, false}};
+  static constexpr TrackPart kTwo[] = {{0, 2, false}};
   static constexpr TrackPart kVector[] = {{0, 3, false}};
   static constexpr TrackPart kRotation[] = {{0, 4, true}};
   static constexpr TrackPart kPose[] = {{0, 3, false}, {3, 4, true}};
   switch (width) {
     case 1:
-      return kNumbers;
+      return kNumber;
+    case 2:
+      return kTwo;
     case 3:
       return kVector;
     case 4:
