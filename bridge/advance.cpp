@@ -2,6 +2,7 @@
 // done.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <pantin/bridge/bridge_impl.hpp>
 #include <pantin/scenegraph/expects.hpp>
@@ -75,6 +76,7 @@ AdvanceReport Bridge::Impl::run_due() {
   scene.update();
   physics.clear_accumulators();
   report.time = physics.time();
+  report.events = std::exchange(passed, {});
   return report;
 }
 

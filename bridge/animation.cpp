@@ -1,6 +1,5 @@
 // Clips on nodes, and what the user sets by hand.
 #include <algorithm>
-#include <unordered_set>
 
 #include <pantin/bridge/bridge_impl.hpp>
 #include <pantin/bridge/links_to_joints.hpp>
@@ -20,34 +19,59 @@ std::vector<Diagnostic> Bridge::play(const Clip& clip, std::vector<NodeId> targe
     refuse(std::move(problem), "");
     return notes;
   }
-  settings.begin += bridge.physics.time();
-  if (std::string problem = pantin::problem_with(settings, clip); !problem.empty())
+  bridge.play_on();
+  const double now = bridge.physics.time();
+  settings.begin += now;
+  settings.weight = settings.weight.shifted(now);
+  if (settings.warp) settings.warp = settings.warp->shifted(now, now);
+  if (std::string problem = pantin::problem_with(bridge.player, bridge.scene, clip, targets, settings);
+      !problem.empty()) {
     refuse(std::move(problem), "");
+    return notes;
+  }
   std::vector<NodeId> nodes;
   for (const Track& track : clip.tracks) {
     const NodeId node = targets[track.target];
     if (node && std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
   }
   for (const NodeId node : nodes) {
-    const Player* other = bridge.player(node);
-    if (other == nullptr) continue;
-    notes.push_back(bridge.note(
-        Severity::Error, node,
-        "clip '" + clip.name + "' would animate it, but clip '" + other->clip().name + "' does already",
-        "stop playing it first"));
+    const PlayId other = bridge.rival(node, settings);
+    if (!other) continue;
+    notes.push_back(bridge.note(Severity::Error, node,
+                                "clip '" + clip.name + "' would animate it, but clip '" +
+                                    bridge.player.clip(other).name + "' does already",
+                                "stop playing it first, or give one of them another layer or a weight"));
   }
   if (has_error(notes) || nodes.empty()) return notes;
-  bridge.players.push_back(std::make_unique<Player>(bridge.scene, clip, std::move(targets), settings));
-  for (const NodeId node : nodes) bridge.player_of[node] = bridge.players.back().get();
-  bridge.let_players_in(nodes);
+  const PlayId id = bridge.player.play(bridge.scene, clip, targets, std::move(settings));
+  bridge.let_player_in(bridge.player.nodes_of(id));
   return notes;
 }
 
-// Nodes have got, or lost, a player: held ones stay where they are, the others are where the clip says at
-// once.
-void Bridge::Impl::let_players_in(std::span<const NodeId> nodes) {
+namespace {
+
+/// Whether it takes all of a node from what else is on its layer.
+bool wants_all(const PlayerSettings& settings) {
+  return settings.blend == Blend::Override && settings.weight.is_constant() &&
+         sample(settings.weight, 0).value == 1;
+}
+
+}  // namespace
+
+PlayId Bridge::Impl::rival(NodeId node, const PlayerSettings& settings) const {
+  if (!wants_all(settings)) return {};
+  for (const PlayId id : player.plays_of(node)) {
+    const PlayerSettings& other = player.settings(id);
+    if (other.layer == settings.layer && wants_all(other)) return id;
+  }
+  return {};
+}
+
+// What clips say about these nodes has changed: held ones stay where they are, the others are where the clips
+// say at once.
+void Bridge::Impl::let_player_in(std::span<const NodeId> nodes) {
   for (const NodeId node : nodes) {
-    if (const Binding* binding = find(node)) hold_players(*binding);
+    if (const Binding* binding = find(node)) hold_player(*binding);
     watched.erase(node);
   }
   write_scene(nullptr);
@@ -55,37 +79,68 @@ void Bridge::Impl::let_players_in(std::span<const NodeId> nodes) {
   for (Binding* binding : below(nodes)) {
     if (binding->drive == Drive::Scene) announce(*binding);
   }
-  finished_players.clear();
   write_scene(nullptr);
+}
+
+// They stay where they are, also on their way back to a clip. Until their trajectories are built anew, these
+// still ask the player.
+void Bridge::Impl::take_out(std::span<const NodeId> nodes) {
+  for (const NodeId node : nodes) {
+    player.hold(node);
+    leaving.insert(node);
+    Binding* binding = find(node);
+    if (binding == nullptr || !binding->blend) continue;
+    binding->blend.reset();
+    binding->is_remembered = false;
+  }
+  let_player_in(nodes);
+  for (const NodeId node : nodes) {
+    player.release(node);
+    player.stop(node);
+  }
+  leaving.clear();
 }
 
 void Bridge::stop_playing(NodeId id) {
   impl_->expect_alive(id, "stop_playing");
-  if (impl_->player(id) == nullptr) return;
+  if (!impl_->is_played(id)) return;
   impl_->notice_moves();
-  impl_->drop_player_of(id);
-  // It stays where it is, also on its way back to the clip.
-  if (Binding* binding = impl_->find(id); binding != nullptr && binding->blend) {
-    binding->blend.reset();
-    binding->is_remembered = false;
-  }
-  impl_->let_players_in({&id, 1});
+  impl_->take_out({&id, 1});
 }
 
-void Bridge::Impl::drop_player_of(NodeId id) {
-  const auto played = player_of.find(id);
-  if (played == player_of.end()) return;
-  Player* player = played->second;
-  player->hold(id);
-  player_of.erase(played);
-  const bool used = std::any_of(player_of.begin(), player_of.end(),
-                                [player](const auto& entry) { return entry.second == player; });
-  if (used) return;
-  // Trajectories that still name it are built anew by the reconcile that follows; until then it must live on.
-  const auto at = std::find_if(players.begin(), players.end(),
-                               [player](const std::unique_ptr<Player>& p) { return p.get() == player; });
-  finished_players.push_back(std::move(*at));
-  players.erase(at);
+void Bridge::stop_playing(PlayId id) {
+  Impl& bridge = *impl_;
+  bridge.forget_vanished();
+  bridge.notice_moves();
+  std::vector<NodeId> alone, shared;
+  for (const NodeId node : bridge.player.nodes_of(id))
+    (bridge.player.plays_of(node).size() == 1 ? alone : shared).push_back(node);
+  bridge.take_out(alone);
+  if (bridge.player.is_playing(id)) bridge.player.stop(id);
+  bridge.let_player_in(shared);
+}
+
+void Bridge::set_weight(PlayId id, const Curve& weight) {
+  impl_->change_plays({&id, 1}, [&](Player& player) { player.set_weight(id, weight.shifted(time())); });
+}
+
+void Bridge::cross_fade(PlayId from, PlayId to, CrossFadeSettings settings) {
+  settings.begin += time();
+  const PlayId both[] = {from, to};
+  impl_->change_plays(both, [&](Player& player) { player.cross_fade(from, to, settings); });
+}
+
+void Bridge::Impl::change_plays(std::span<const PlayId> plays, const std::function<void(Player&)>& change) {
+  forget_vanished();
+  notice_moves();
+  play_on();
+  change(player);
+  std::vector<NodeId> nodes;
+  for (const PlayId id : plays) {
+    const std::vector<NodeId> more = player.nodes_of(id);
+    nodes.insert(nodes.end(), more.begin(), more.end());
+  }
+  let_player_in(nodes);
 }
 
 void Bridge::set_local(NodeId id, const Affine& M_PN) {
@@ -112,6 +167,10 @@ void Bridge::set_local(NodeId id, const Affine& M_PN) {
     return;
   }
   bridge.scene.set_local(id, M_PN);
+  if (!bridge.player.is_carrier(id)) return;
+  bridge.play_on();
+  bridge.player.place(id, M_PN);
+  bridge.let_player_in({&id, 1});
 }
 
 void Bridge::set_link_value(NodeId id, const LinkValue& value) {

@@ -41,7 +41,7 @@ Binding& Bridge::Impl::bind(NodeId id, Drive drive, const Polar& at, const Rigid
 
 void Bridge::Impl::unbind(Binding& binding) {
   const NodeId id = binding.node;
-  if (const auto played = player_of.find(id); played != player_of.end()) played->second->release(id);
+  player.release(id);
   if (physics.contains(binding.body)) physics.remove(binding.body);
   by_body.erase(binding.body);
   std::erase(sharing, &binding);
@@ -52,16 +52,12 @@ void Bridge::Impl::unbind(Binding& binding) {
 
 // Nodes that were removed from the scene directly, with all below them.
 void Bridge::Impl::forget_vanished() {
-  std::vector<NodeId> bound, played;
+  std::vector<NodeId> bound;
   for (const auto& [node, binding] : bindings) {
     if (!scene.contains(node)) bound.push_back(node);
   }
-  for (const auto& [node, player] : player_of) {
-    if (!scene.contains(node)) played.push_back(node);
-  }
   for (const NodeId node : bound) unbind(*find(node));
-  for (const NodeId node : played) drop_player_of(node);
-  finished_players.clear();
+  player.stop_removed(scene);
   if (bound.empty()) return;
   for (const NodeId node : bound) node_bodies.erase(node);
   const NodeId everything = scene.root();

@@ -52,11 +52,6 @@ Binding* Bridge::Impl::find(NodeId id) const {
   return found == bindings.end() ? nullptr : found->second.get();
 }
 
-const Player* Bridge::Impl::player(NodeId id) const {
-  const auto found = player_of.find(id);
-  return found == player_of.end() ? nullptr : found->second;
-}
-
 Binding* Bridge::Impl::bound_above(NodeId id) const {
   for (NodeId above = scene.parent(id); above; above = scene.parent(above)) {
     if (Binding* binding = find(above)) return binding;
@@ -112,7 +107,7 @@ RigidMotion Bridge::Impl::motion_of(const Binding& binding) const {
 
 bool Bridge::Impl::is_played_between(NodeId from, const Binding* above) const {
   for (NodeId id = from; id && (above == nullptr || id != above->node); id = scene.parent(id)) {
-    if (player(id) != nullptr) return true;
+    if (is_played(id)) return true;
   }
   return false;
 }
@@ -163,7 +158,8 @@ const NodeBody* Bridge::node_body(NodeId id) const {
   return found == impl_->node_bodies.end() ? nullptr : &found->second;
 }
 
-bool Bridge::is_played(NodeId id) const { return impl_->player(id) != nullptr; }
+bool Bridge::is_played(NodeId id) const { return impl_->is_played(id); }
+const Player& Bridge::player() const noexcept { return impl_->player; }
 double Bridge::time() const noexcept { return impl_->physics.time(); }
 const Clock& Bridge::clock() const noexcept { return impl_->clock; }
 void Bridge::set_step(double step) { impl_->clock.set_step(step); }

@@ -75,7 +75,8 @@ struct AdvanceReport {
   double time{0};               ///< physics time reached [s]
   double dropped{0};            ///< elapsed time thrown away by the cap on updates [s]
   StepReport last{};  ///< of the last step; not ok = the advance stopped there, scene untouched by it
-  std::vector<Diagnostic> notes{};  ///< of toggles that fell due, and of nodes that could not be written
+  std::vector<PlayedEvent> events{};  ///< of clips, passed since the last advance
+  std::vector<Diagnostic> notes{};    ///< of toggles that fell due, and of nodes that could not be written
 };
 
 /// Scene and physics must outlive the bridge; the bodies it made leave physics with it. Verbs that return
@@ -95,12 +96,19 @@ class Bridge {
   /// What a node brings along; a bound node, or the body that carries it, is weighed anew.
   void set_node_body(NodeId id, NodeBody body);
   [[nodiscard]] const NodeBody* node_body(NodeId id) const;  ///< nullptr where nothing is known
-  /// Plays a clip from the present physics time on (settings.begin is relative to it); its nodes, and
-  /// animated bodies with what hangs on them, are there at once. Null targets are left out. A node that is
-  /// animated by another clip already is an error.
+  /// Plays a clip from the present physics time on: settings.begin and the times of weight and warp are
+  /// relative to it. Its nodes, and animated bodies with what hangs on them, are there at once. Null targets
+  /// are left out. A node that another clip has to itself (Override on the same layer, both with the weight
+  /// 1) is an error; with other layers or weights clips are blended (player.hpp).
   std::vector<Diagnostic> play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings = {});
-  void stop_playing(NodeId id);  ///< removes the node from its clip; it stays where it is
+  void stop_playing(NodeId id);  ///< removes the node from its clips; it stays where it is
+  void stop_playing(PlayId id);  ///< nodes that nothing else plays on stay where they are
   [[nodiscard]] bool is_played(NodeId id) const;
+  void set_weight(PlayId id, const Curve& weight);  ///< times are relative to now
+  /// `begin` is relative to now.
+  void cross_fade(PlayId from, PlayId to, CrossFadeSettings settings = {});
+  /// What plays on which nodes, at physics time.
+  [[nodiscard]] const Player& player() const noexcept;
 
   // Verbs
   /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link

@@ -2,6 +2,7 @@
 // Private to bridge. What a Bridge consists of. Each verb changes drives and bindings, then calls
 // `reconcile`, which gives every body below the change the kind, joint, mass and trajectory that follow from
 // them.
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,9 +26,9 @@ struct Bridge::Impl {
   Scene& scene;
   PhysicsManager& physics;
   Clock clock;
-  std::vector<std::unique_ptr<Player>> players{};
-  std::vector<std::unique_ptr<Player>> finished_players{};  ///< kept until no trajectory can name them
-  std::unordered_map<NodeId, Player*> player_of{};
+  Player player{};                       ///< of all clips
+  std::unordered_set<NodeId> leaving{};  ///< being taken out of the player, which trajectories still ask
+  std::vector<PlayedEvent> passed{};     ///< since the last advance
   std::unordered_map<NodeId, NodeBody> node_bodies{};
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
@@ -40,7 +41,8 @@ struct Bridge::Impl {
   // Look-up (bridge.cpp)
   void expect_alive(NodeId id, const char* verb) const;
   [[nodiscard]] Binding* find(NodeId id) const;
-  [[nodiscard]] const Player* player(NodeId id) const;
+  /// Whether a clip moves it.
+  [[nodiscard]] bool is_played(NodeId id) const { return player.animates(id) && !leaving.contains(id); }
   /// The nearest bound node above; null if there is none.
   [[nodiscard]] Binding* bound_above(NodeId id) const;
   [[nodiscard]] NodeId bound_node_above(NodeId id) const;
@@ -91,7 +93,7 @@ struct Bridge::Impl {
   void jump_to_trajectory(Binding& binding);
   void tell_turns(std::span<Binding* const> affected);
   void remember_written(Binding& binding) const;
-  void hold_players(const Binding& binding);
+  void hold_player(const Binding& binding);
 
   // Masses (weigh.cpp)
   [[nodiscard]] DerivedMass weigh(NodeId id, const Affine& M_BN, double density,
@@ -126,8 +128,11 @@ struct Bridge::Impl {
   void refuse_statics_under(NodeId parent, NodeId id, std::vector<Diagnostic>& notes) const;
   [[nodiscard]] std::optional<Link> rebased_link(NodeId id, NodeId parent,
                                                  std::vector<Diagnostic>& notes) const;
-  void drop_player_of(NodeId id);
-  void let_players_in(std::span<const NodeId> nodes);
+  void let_player_in(std::span<const NodeId> nodes);
+  void take_out(std::span<const NodeId> nodes);
+  void change_plays(std::span<const PlayId> plays, const std::function<void(Player&)>& change);
+  /// A play that leaves nothing of this node to another one with these settings; null if there is none.
+  [[nodiscard]] PlayId rival(NodeId node, const PlayerSettings& settings) const;
 
   // Writing (sync.cpp)
   [[nodiscard]] Affine parent_world(const Binding& binding) const;
@@ -137,6 +142,7 @@ struct Bridge::Impl {
   [[nodiscard]] static bool is_below_written(const Binding& binding);
   void sync_out(std::vector<Diagnostic>* notes);
   void write_scene(std::vector<Diagnostic>* notes);
+  void play_on();
 
   // Time (advance.cpp)
   void meet_physics_time();

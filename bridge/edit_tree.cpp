@@ -28,12 +28,11 @@ void Bridge::remove(NodeId id) {
   std::vector<Binding*> bound = bridge.below({&id, 1});
   for (auto binding = bound.rbegin(); binding != bound.rend(); ++binding) bridge.unbind(**binding);
   for (const NodeId node : bridge.scene.subtree(id)) {
-    bridge.drop_player_of(node);
+    bridge.player.stop(node);
     bridge.node_bodies.erase(node);
     bridge.watched.erase(node);
   }
   bridge.scene.remove(id);
-  bridge.finished_players.clear();
   bridge.reweigh(above);
   bridge.drop_idle_carriers();
 }
@@ -104,7 +103,7 @@ std::vector<Diagnostic> Bridge::reparent(NodeId id, NodeId parent) {
   bridge.order_is_stale();
   bridge.replace_link(id, link, scene.local(id));
   if (on_its_way) bridge.blend_anew(*binding, *on_its_way);
-  if (bridge.player(id) != nullptr) {
+  if (bridge.is_played(id)) {
     notes.push_back(bridge.note(Severity::Warning, id,
                                 "a clip animates it with values made for its old parent",
                                 "stop playing it to keep it where it is"));

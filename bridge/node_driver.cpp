@@ -86,7 +86,7 @@ bool NodeMotion::is_played() const noexcept {
 
 bool NodeMotion::begins_at(double t) const noexcept {
   return std::any_of(parts_.begin(), parts_.end(), [t](const ChainPart& part) {
-    return part.player != nullptr && part.player->settings().begin == t;
+    return part.player != nullptr && part.player->begins_at(part.node, t);
   });
 }
 

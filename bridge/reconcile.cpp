@@ -57,7 +57,7 @@ std::vector<Diagnostic> Bridge::Impl::settle(std::span<const NodeId> tops) {
   tell_turns(affected);
   for (Binding* binding : affected) {
     if (binding->drive == Drive::Scene && !binding->moved_from) jump_to_trajectory(*binding);
-    hold_players(*binding);
+    hold_player(*binding);
     watch(*binding);
     remember_written(*binding);
   }
@@ -132,11 +132,10 @@ void Bridge::Impl::tell_turns(std::span<Binding* const> affected) {
   }
 }
 
-void Bridge::Impl::hold_players(const Binding& binding) {
-  const auto played = player_of.find(binding.node);
-  if (played == player_of.end()) return;
-  if (binding.drive == Drive::Scene && !binding.blend) played->second->release(binding.node);
-  else played->second->hold(binding.node);
+void Bridge::Impl::hold_player(const Binding& binding) {
+  if (!is_played(binding.node)) return;
+  if (binding.drive == Drive::Scene && !binding.blend) player.release(binding.node);
+  else player.hold(binding.node);
 }
 
 // From here on nothing is written to the node until its body, or what it hangs on, differs from this by more

@@ -67,12 +67,19 @@ void Bridge::Impl::sync_out(std::vector<Diagnostic>* notes) {
   for (const Binding* binding : written) note_link_value(*binding);
 }
 
+// Somebody may have gone back to a snapshot.
+void Bridge::Impl::play_on() {
+  const double now = physics.time();
+  if (now < player.time()) player.set_time(now);
+  if (now == player.time()) return;
+  player.advance_to(now);
+  passed.insert(passed.end(), player.events().begin(), player.events().end());
+}
+
 void Bridge::Impl::write_scene(std::vector<Diagnostic>* notes) {
   finish_blends();
-  for (const std::unique_ptr<Player>& player : players) {
-    player->set_time(physics.time());
-    player->apply(scene);
-  }
+  play_on();
+  player.apply(scene);
   rebake_residuals();
   sync_out(notes);
 }

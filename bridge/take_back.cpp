@@ -19,6 +19,7 @@ std::vector<Diagnostic> Bridge::Impl::stop_simulating(std::span<Binding* const> 
     measured[binding] = motion_of(*binding);
     note_link_value(*binding);
     binding->M_PN_rest = scene.local(binding->node);
+    if (player.is_carrier(binding->node)) player.place(binding->node, binding->M_PN_rest);
   }
   for (Binding* binding : taken) {
     binding->drive = drive;

@@ -54,7 +54,7 @@ class Bridge::Impl::Teleport {
     M_PN_ = *M_PN;
     Binding* bound = bridge_.find(id_);
     const bool physics_owns = bound != nullptr && bound->drive != Drive::Scene;
-    if (!physics_owns && bridge_.player(id_) != nullptr) {
+    if (!physics_owns && bridge_.is_played(id_)) {
       return error(id_, "a clip animates it and would put it back",
                    "stop playing it, or teleport its parent");
     }

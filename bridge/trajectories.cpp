@@ -18,7 +18,7 @@ std::vector<ChainPart> Bridge::Impl::chain_to(NodeId id, const Binding* above) c
     ChainPart part{.node = at};
     const Binding* binding = find(at);
     const bool stands = binding != nullptr && binding->drive == Drive::Static;
-    if (!stands) part.player = player(at);
+    if (!stands && is_played(at)) part.player = &player;
     if (binding != nullptr && binding->blend) part.blend = &*binding->blend;
     if (part.player == nullptr)
       part.rest = constant_motion(part.blend ? binding->M_PN_rest : scene.local(at));
@@ -44,7 +44,7 @@ SplitMotion Bridge::Impl::world_motion(NodeId id) const {
   bool moves = false;
   for (NodeId at = id; at && !moves && (above == nullptr || at != above->node); at = scene.parent(at)) {
     const Binding* binding = find(at);
-    moves = player(at) != nullptr || (binding != nullptr && binding->blend);
+    moves = is_played(at) || (binding != nullptr && binding->blend);
   }
   if (!moves && above == nullptr) return split(constant_motion(scene.world(id)));
   NodeMotion motion;
@@ -82,7 +82,7 @@ void Bridge::Impl::finish_blends() {
   }
   for (const NodeId id : done) {
     Binding& binding = *find(id);
-    if (player(id) == nullptr) scene.set_local(id, binding.M_PN_rest);
+    if (!is_played(id)) scene.set_local(id, binding.M_PN_rest);
     binding.blend.reset();
   }
   if (!done.empty()) static_cast<void>(reconcile(done));
@@ -111,7 +111,7 @@ void Bridge::Impl::watch(const Binding& binding) {
   for (NodeId id = binding.node; id; id = scene.parent(id)) {
     const Binding* bound = find(id);
     if (bound != nullptr && bound != &binding) return;
-    const bool free = player(id) == nullptr && (bound == nullptr || !bound->blend);
+    const bool free = !is_played(id) && (bound == nullptr || !bound->blend);
     if (free) watched[id] = scene.local(id);
     else watched.erase(id);
   }

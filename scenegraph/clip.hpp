@@ -29,10 +29,17 @@ struct Track {
   std::vector<double> values{};  ///< times.size() * width numbers, three times as many for CubicSpline
 };
 
+/// Something that happens at a time of a clip: a footstep, say. Players report it when they pass it.
+struct ClipEvent {
+  double time{0};  ///< [s], within 0 .. the clip's duration
+  std::string name{};
+};
+
 struct Clip {
   std::string name{};
-  double duration{0};  ///< [s], the last key's time
+  double duration{0};  ///< [s], not before the last key's time
   std::vector<Track> tracks{};
+  std::vector<ClipEvent> events{};  ///< times not decreasing
 };
 
 /// What is wrong with a track (unsorted times, wrong count, not finite, ...); empty if nothing is. A `target`

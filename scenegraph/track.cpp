@@ -27,11 +27,13 @@ std::string problem_with_width(const Track& track) {
 
 std::string problem_with_times(const std::vector<double>& times) {
   if (times.empty()) return "it has no keys";
+  const auto key = [&](std::size_t k) {
+    return "key " + std::to_string(k) + " at " + std::to_string(times[k]) + " s ";
+  };
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const std::string key = "key " + std::to_string(k) + " at " + std::to_string(times[k]) + " s ";
-    if (!std::isfinite(times[k])) return key + "is not finite";
-    if (times[k] < 0) return key + "is before 0";
-    if (k > 0 && !(times[k - 1] < times[k])) return key + "is not after the key before it";
+    if (!std::isfinite(times[k])) return key(k) + "is not finite";
+    if (times[k] < 0) return key(k) + "is before 0";
+    if (k > 0 && !(times[k - 1] < times[k])) return key(k) + "is not after the key before it";
   }
   return {};
 }

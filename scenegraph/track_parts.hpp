@@ -13,8 +13,11 @@ struct TrackPart {
   bool is_rotation{false};
 };
 
-/// The parts of a track's value, in order.
-[[nodiscard]] std::span<const TrackPart> parts_of(const Track& track) noexcept;
+/// The parts of a value of so many numbers, in order.
+[[nodiscard]] std::span<const TrackPart> parts_of(int width) noexcept;
+[[nodiscard]] inline std::span<const TrackPart> parts_of(const Track& track) noexcept {
+  return parts_of(track.width);
+}
 
 /// How many numbers are stored for each key.
 [[nodiscard]] inline std::size_t values_per_key(const Track& track) noexcept {

@@ -5,13 +5,15 @@
 //   CUBICSPLINE  (2u^3 - 3u^2 + 1) v_k + d (u^3 - 2u^2 + u) b_k + (-2u^3 + 3u^2) v_{k+1} + d (u^3 - u^2)
 //   a_{k+1}
 //                with out-tangent b_k and in-tangent a_{k+1}; rotations: normalised afterwards
-// Slerp from q0 to q1, A the angle between them as 4-vectors, f = uA, and w = q1 - cos(A) q0 (orthogonal to
-// q0, length sin A):  q = cos(f) q0 + (sin f / sin A) w,  q' = A/d (-sin(f) q0 + (cos f / sin A) w),  q'' =
-// -(A/d)^2 q. A and w are taken from q1 - q0, which keeps them accurate for nearly equal keys.
+// Slerp from q0 to q1, A the angle between them as 4-vectors, f = uA, and e = (q1 - cos(A) q0) / sin(A),
+// which is of length 1 and orthogonal to q0:  q = cos(f) q0 + sin(f) e,  q' = A/d (-sin(f) q0 + cos(f) e),
+// q'' =
+// -(A/d)^2 q.
 #include <algorithm>
 #include <cmath>
 
 #include <pantin/scenegraph/expects.hpp>
+#include <pantin/scenegraph/prepared_clip.hpp>
 #include <pantin/scenegraph/track_parts.hpp>
 
 namespace pantin {
@@ -26,24 +28,17 @@ struct RotationSample {
   Vector4 second{Vector4::Zero()};
 };
 
-/// sin(x) / x.
-double sinc(double x) {
-  if (std::abs(x) < 1e-4) return 1 - x * x / 6;  // the next term, x^4 / 120, is below round-off
-  return std::sin(x) / x;
-}
-
-Vector4 unit_key(const double* numbers) { return Eigen::Map<const Vector4>{numbers}.stableNormalized(); }
-
-RotationSample slerp(const Vector4& q0, Vector4 q1, double u, double d) {
-  if (q0.dot(q1) < 0) q1 = -q1;
-  const Vector4 chord = q1 - q0;
-  const double angle = 2 * std::atan2(chord.norm(), (q1 + q0).norm());
-  const Vector4 w = chord + (chord.squaredNorm() / 2) * q0;  // 1 - cos(angle) = |chord|^2 / 2
-  const double f = u * angle;
+template <bool kDerivatives>
+RotationSample slerp(const double* arc, double u, double d) {
+  const Eigen::Map<const Vector4> from{arc}, across{arc + 4};
+  const double angle = arc[8];
+  const double c = std::cos(u * angle), s = std::sin(u * angle);
   RotationSample out;
-  out.value = (std::cos(f) * q0 + (u * sinc(f) / sinc(angle)) * w).normalized();
-  out.first = (-angle * std::sin(f) * q0 + (std::cos(f) / sinc(angle)) * w) / d;
-  out.second = -(angle / d) * (angle / d) * out.value;
+  out.value = c * from + s * across;
+  if constexpr (!kDerivatives) return out;
+  const double rate = angle / d;
+  out.first = rate * (c * across - s * from);
+  out.second = -rate * rate * out.value;
   return out;
 }
 
@@ -72,128 +67,203 @@ RotationSample normalised(const RotationSample& p) {
   return q;
 }
 
-/// One part of a track between keys k and k + 1.
+/// Where the numbers of a sample go; the derivatives only where they are wanted.
+struct SampleNumbers {
+  double* value;
+  double* first;
+  double* second;
+};
+
+/// What lies between two rows of a track.
+template <bool kDerivatives>
 class Interval {
  public:
-  Interval(const Track& track, std::size_t k, double time)
-      : track_{track},
-        k_{k},
-        d_{track.times[k + 1] - track.times[k]},
-        u_{(time - track.times[k]) / d_},
-        weights_{u_, d_} {}
+  Interval(const Track& track, const double* left, const double* right, double time)
+      : parts_{parts_of(track)},
+        left_{left + 1},
+        right_{right + 1},
+        d_{*right - *left},
+        u_{(time - *left) / d_} {}
 
-  void numbers(const TrackPart& part, TrackSample& out) const {
-    for (int j = part.first; j < part.first + part.count; ++j) {
-      const std::size_t i = static_cast<std::size_t>(j);
-      const double v0 = key_value(track_, k_)[j];
-      const double v1 = key_value(track_, k_ + 1)[j];
-      if (track_.interpolation == Interpolation::Linear) {
-        out.value[i] = (1 - u_) * v0 + u_ * v1;
-        out.first[i] = (v1 - v0) / d_;
-        continue;
+  void linear(SampleNumbers out) {
+    for (const TrackPart& part : parts_) {
+      if (part.is_rotation) {
+        set(slerp<kDerivatives>(left_, u_, d_), out);
+        pass(9);
+      } else {
+        for (int i = 0; i < part.count; ++i) {
+          out.value[i] = (1 - u_) * left_[i] + u_ * right_[i];
+          if constexpr (kDerivatives) out.first[i] = (right_[i] - left_[i]) / d_;
+        }
+        pass(part.count);
       }
-      const Vector4 controls = this->controls(j);
-      out.value[i] = weights_.value.dot(controls);
-      out.first[i] = weights_.first.dot(controls);
-      out.second[i] = weights_.second.dot(controls);
+      skip(part.count, out);
     }
   }
 
-  void rotation(const TrackPart& part, TrackSample& out) const {
-    const RotationSample q = rotation(part.first);
-    for (int j = 0; j < 4; ++j) {
-      const std::size_t i = static_cast<std::size_t>(part.first + j);
-      out.value[i] = q.value[j];
-      out.first[i] = q.first[j];
-      out.second[i] = q.second[j];
+  void cubic(SampleNumbers out) {
+    const HermiteWeights weights{u_, d_};
+    for (const TrackPart& part : parts_) {
+      if (part.is_rotation) {
+        set(cubic_rotation(weights), out);
+        pass(16);
+      } else {
+        for (int i = 0; i < part.count; ++i) {
+          const Vector4 controls = this->controls(i);
+          out.value[i] = weights.value.dot(controls);
+          if constexpr (!kDerivatives) continue;
+          out.first[i] = weights.first.dot(controls);
+          out.second[i] = weights.second.dot(controls);
+        }
+        pass(3 * part.count);
+      }
+      skip(part.count, out);
     }
   }
 
  private:
-  /// v_k, b_k, v_{k+1}, a_{k+1} of number j.
-  [[nodiscard]] Vector4 controls(int j) const {
-    const double* left = key_value(track_, k_);
-    const double* right = key_value(track_, k_ + 1);
-    return {left[j], left[j + track_.width], right[j], right[j - track_.width]};
+  /// v_k, b_k, v_{k+1}, a_{k+1} of number i of the part.
+  [[nodiscard]] Vector4 controls(int i) const {
+    return {left_[3 * i + 1], left_[3 * i + 2], right_[3 * i + 1], right_[3 * i]};
   }
-
-  [[nodiscard]] RotationSample rotation(int first) const {
-    const double* left = key_value(track_, k_) + first;
-    const double* right = key_value(track_, k_ + 1) + first;
-    if (track_.interpolation == Interpolation::Linear) return slerp(unit_key(left), unit_key(right), u_, d_);
+  /// Where the curve passes through 0 there is no rotation: the nearer key, at rest.
+  [[nodiscard]] RotationSample cubic_rotation(const HermiteWeights& weights) const {
     RotationSample p;
+    double scale = 0;
     for (int j = 0; j < 4; ++j) {
-      const Vector4 controls = this->controls(first + j);
-      p.value[j] = weights_.value.dot(controls);
-      p.first[j] = weights_.first.dot(controls);
-      p.second[j] = weights_.second.dot(controls);
+      const Vector4 controls = this->controls(j);
+      p.value[j] = weights.value.dot(controls);
+      p.first[j] = weights.first.dot(controls);
+      p.second[j] = weights.second.dot(controls);
+      scale += std::abs(controls[0]) + std::abs(controls[2]);
     }
-    const double scale = Eigen::Map<const Vector4>{left}.norm() + Eigen::Map<const Vector4>{right}.norm();
     if (p.value.norm() > 1e-9 * scale) return normalised(p);
-    return {unit_key(u_ < 0.5 ? left : right), Vector4::Zero(), Vector4::Zero()};
+    RotationSample key;
+    key.value = Eigen::Map<const Vector4>{(u_ < 0.5 ? left_ : right_) + 12};
+    return key;
+  }
+  void pass(int numbers) {
+    left_ += numbers;
+    right_ += numbers;
+  }
+  static void skip(int numbers, SampleNumbers& out) {
+    out.value += numbers;
+    if constexpr (!kDerivatives) return;
+    out.first += numbers;
+    out.second += numbers;
+  }
+  static void set(const RotationSample& q, const SampleNumbers& out) {
+    Eigen::Map<Vector4>{out.value} = q.value;
+    if constexpr (!kDerivatives) return;
+    Eigen::Map<Vector4>{out.first} = q.first;
+    Eigen::Map<Vector4>{out.second} = q.second;
   }
 
-  const Track& track_;
-  std::size_t k_;
+  std::span<const TrackPart> parts_;
+  const double* left_;
+  const double* right_;
   double d_;
   double u_;
-  HermiteWeights weights_;
 };
 
-void hold(const Track& track, std::size_t k, TrackSample& out) {
+/// The value of a key, from its row.
+void hold(const Track& track, const double* row, double* value) {
+  const bool is_cubic = track.interpolation == Interpolation::CubicSpline;
+  ++row;
   for (const TrackPart& part : parts_of(track)) {
-    const double* key = key_value(track, k) + part.first;
-    double* value = out.value.data() + part.first;
-    std::copy(key, key + part.count, value);
-    if (part.is_rotation) Eigen::Map<Vector4>{value} = unit_key(key);
+    if (part.is_rotation) {
+      if (is_cubic) row += 12;
+      value = std::copy(row, row + 4, value);
+      row += is_cubic ? 4 : 9;
+    } else {
+      for (int i = 0; i < part.count; ++i) *value++ = row[is_cubic ? 3 * i + 1 : i];
+      row += is_cubic ? 3 * part.count : part.count;
+    }
   }
+}
+
+template <bool kDerivatives>
+void interpolate(const Track& track, const double* left, const double* right, double time,
+                 const SampleNumbers& out) {
+  Interval<kDerivatives> interval{track, left, right, time};
+  if (track.interpolation == Interpolation::Linear) interval.linear(out);
+  else interval.cubic(out);
+}
+
+bool is_passed(double key, double time, KeySide side) {
+  return side == KeySide::After ? key <= time : key < time;
+}
+
+/// Number of keys at or before (side After) or before (side Before) a time.
+std::size_t keys_before(const std::vector<double>& times, double time, KeySide side) {
+  const auto beyond = side == KeySide::After ? std::upper_bound(times.begin(), times.end(), time)
+                                             : std::lower_bound(times.begin(), times.end(), time);
+  return static_cast<std::size_t>(beyond - times.begin());
+}
+
+/// The same, looked for at the cursor and right after it first.
+std::size_t keys_before(const PreparedTrack& track, double time, KeySide side, KeyCursor& cursor) {
+  const std::size_t count = track.track->times.size();
+  std::size_t right = cursor;
+  if (right > 0 && right <= count && is_passed(*track.row(right - 1), time, side)) {
+    if (right < count && is_passed(*track.row(right), time, side)) ++right;
+    if (right == count || !is_passed(*track.row(right), time, side))
+      return cursor = static_cast<KeyCursor>(right);
+  }
+  return cursor = static_cast<KeyCursor>(keys_before(track.track->times, time, side));
+}
+
+template <bool kDerivatives>
+void sample_at(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor,
+               const SampleNumbers& out) {
+  const Track& track = *prepared.track;
+  const std::size_t count = track.times.size();
+  std::size_t right = keys_before(prepared, at.time, at.side, cursor);
+  double time = at.time;
+  // A time that is meant to hit a key is moved onto it.
+  const bool hits_left = right > 0 && time - *prepared.row(right - 1) <= at.slack;
+  const bool hits_right = right < count && *prepared.row(right) - time <= at.slack;
+  if (hits_left || hits_right) {
+    const std::size_t key = hits_left ? right - 1 : right;
+    time = *prepared.row(key);
+    right = at.side == KeySide::After ? key + 1 : key;
+  }
+  const std::size_t left = right == 0 ? 0 : right - 1;
+  if (right == 0 || right == count || track.interpolation == Interpolation::Step)
+    hold(track, prepared.row(left), out.value);
+  else interpolate<kDerivatives>(track, prepared.row(left), prepared.row(right), time, out);
 }
 
 }  // namespace
-
-std::span<const TrackPart> parts_of(const Track& track) noexcept {
-  static constexpr TrackPart kNumber[] = {{0, 1, false}};
-  static constexpr TrackPart kTwo[] = {{0, 2, false}};
-  static constexpr TrackPart kVector[] = {{0, 3, false}};
-  static constexpr TrackPart kRotation[] = {{0, 4, true}};
-  static constexpr TrackPart kPose[] = {{0, 3, false}, {3, 4, true}};
-  switch (track.width) {
-    case 1:
-      return kNumber;
-    case 2:
-      return kTwo;
-    case 3:
-      return kVector;
-    case 4:
-      return kRotation;
-    case 7:
-      return kPose;
-    default:
-      return {};
-  }
-}
 
 TrackSample sample(const Track& track, double time, KeySide side) {
   PANTIN_EXPECTS(!track.times.empty() && track.values.size() == track.times.size() * values_per_key(track),
                  "a track of " + std::to_string(track.times.size()) + " keys with " +
                      std::to_string(track.values.size()) + " numbers cannot be sampled; see problem_with");
   PANTIN_EXPECTS(!std::isnan(time), "the time to sample at is not a number");
-  const std::vector<double>& times = track.times;
-  const auto beyond = side == KeySide::After ? std::upper_bound(times.begin(), times.end(), time)
-                                             : std::lower_bound(times.begin(), times.end(), time);
-  const std::size_t right = static_cast<std::size_t>(beyond - times.begin());
-  const std::size_t left = right == 0 ? 0 : right - 1;
+  const std::size_t right = keys_before(track.times, time, side);
+  std::array<double, 26> left_row, right_row;
+  fill_row(track, right == 0 ? 0 : right - 1, left_row.data());
   TrackSample out;
-  if (right == 0 || right == times.size() || track.interpolation == Interpolation::Step) {
-    hold(track, left, out);
+  if (right == 0 || right == track.times.size() || track.interpolation == Interpolation::Step) {
+    hold(track, left_row.data(), out.value.data());
     return out;
   }
-  const Interval interval{track, left, time};
-  for (const TrackPart& part : parts_of(track)) {
-    if (part.is_rotation) interval.rotation(part, out);
-    else interval.numbers(part, out);
-  }
+  fill_row(track, right, right_row.data());
+  interpolate<true>(track, left_row.data(), right_row.data(), time,
+                    {out.value.data(), out.first.data(), out.second.data()});
   return out;
+}
+
+TrackSample sample(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor) {
+  TrackSample out;
+  sample_at<true>(prepared, at, cursor, {out.value.data(), out.first.data(), out.second.data()});
+  return out;
+}
+
+void sample_values(const PreparedTrack& prepared, const SamplePoint& at, KeyCursor& cursor,
+                   std::array<double, 7>& values) {
+  sample_at<false>(prepared, at, cursor, {values.data(), nullptr, nullptr});
 }
 
 }  // namespace pantin

@@ -1,38 +1,17 @@
 // Local matrices with derivatives, through the products of the channels and through links.
 #include <gtest/gtest.h>
 
-#include <support/animated_scene.hpp>
-#include <support/finite_differences.hpp>
-#include <support/random_affine.hpp>
+#include <support/blends.hpp>
 
 namespace pantin {
 namespace {
 
 using test::AnimatedScene;
 using test::clip;
+using test::expect_derivatives;
+using test::random_cubic;
 using test::track;
 using Matrix3x4 = Eigen::Matrix<double, 3, 4>;
-
-/// A smooth track from 0 to 1 s with random keys; those of rotations near to each other.
-Track random_cubic(Channel channel, int width, bool is_rotation, std::mt19937_64& random) {
-  Track cubic{
-      .channel = channel, .interpolation = Interpolation::CubicSpline, .width = width, .times = {0, 1}};
-  for (int k = 0; k < 6; ++k)
-    for (int j = 0; j < width; ++j) {
-      const bool is_w = is_rotation && j == width - 4 && k % 3 == 1;
-      cubic.values.push_back(test::uniform(random, -1, 1) + (is_w ? 2 : 0));
-    }
-  return cubic;
-}
-
-/// Derivatives of motion() against sixth order differences of its values, h = 0.01 of curves that vary over a
-/// second.
-void expect_derivatives(const Player& player, NodeId node, double t) {
-  const auto curve = [&](double time) { return player.motion(node, time).value; };
-  const LocalMotion at = player.motion(node, t);
-  EXPECT_LT((at.first - test::first_difference(curve, t, 0.01)).norm(), 1e-8 * (1 + at.first.norm()));
-  EXPECT_LT((at.second - test::second_difference(curve, t, 0.01)).norm(), 1e-7 * (1 + at.second.norm()));
-}
 
 TEST(Motion, IsTranslationTimesRotationTimesScale) {
   // Values at a key, multiplied by hand.

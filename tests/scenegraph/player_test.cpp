@@ -81,8 +81,8 @@ TEST(Player, KnowsItsNodes) {
   EXPECT_EQ(player.nodes(), (std::vector<NodeId>{b, a}));
   EXPECT_TRUE(player.animates(a));
   EXPECT_FALSE(player.animates(scene.root()));
-  EXPECT_EQ(player.clip().name, "walk");
-  EXPECT_EQ(player.settings().speed, 3);
+  EXPECT_EQ(player.clip(player.plays()[0]).name, "walk");
+  EXPECT_EQ(player.settings(player.plays()[0]).speed, 3);
   const Player half{scene, both, {NodeId{}, b}};
   EXPECT_EQ(half.nodes(), std::vector<NodeId>{b});
 }
@@ -129,9 +129,9 @@ TEST(Player, RefusesBrokenContracts) {
   test::expect_contract([&] { it.player.set_time(kNaN); }, "play time nan s is not finite");
   test::expect_contract([&] { it.player.advance(-1); }, "elapsed time -1.000000 s is negative");
   test::expect_contract([&] { static_cast<void>(it.player.motion(it.scene.root(), 0)); },
-                        "clip 'walk' does not animate node id (index 0, generation 1)");
+                        "no clip animates node id (index 0, generation 1)");
   test::expect_contract([&] { static_cast<void>(it.player.next_break(it.scene.root(), 0)); },
-                        "does not animate");
+                        "no clip animates");
   test::expect_contract([&] { static_cast<void>(it.player.motion(it.node, kNaN)); },
                         "play time nan s is not finite");
   test::expect_contract([&] { static_cast<void>(it.player.next_break(it.node, kNaN)); }, "is not finite");
@@ -150,6 +150,48 @@ TEST(ProblemWithPlayerSettings, NamesEachFault) {
             "begin and speed of a player must be finite");
   EXPECT_EQ(problem_with(PlayerSettings{.offset = -0.5}, sliding()),
             "offset -0.500000 s is not within the clip's 0 .. 2.000000 s");
+}
+
+TEST(ProblemWithPlayerSettings, NamesFaultsOfBlending) {
+  // Weights within 0 .. 1 unless something is added; references within the clip; warps that do not run back.
+  const Clip clip = sliding();
+  EXPECT_EQ(problem_with(PlayerSettings{.weight = -3, .blend = Blend::Additive}, clip), "");
+  EXPECT_EQ(problem_with(PlayerSettings{.weight = 1.5}, clip),
+            "weight 1.500000 is not within 0 .. 1; only Additive may go beyond");
+  EXPECT_EQ(problem_with(PlayerSettings{.channels = {.rotation = -1}}, clip),
+            "channel weight -1.000000 is not within 0 .. 1; only Additive may go beyond");
+  EXPECT_EQ(problem_with(PlayerSettings{.blend = Blend::Additive, .channels = {.scale = kNaN}}, clip),
+            "channel weight nan is not finite");
+  EXPECT_EQ(problem_with(PlayerSettings{.weight = kNaN}, clip), "weight: a number of key 0 is not finite");
+  EXPECT_EQ(problem_with(PlayerSettings{.mask = {{NodeId{}, 2}}}, clip),
+            "mask weight 2.000000 is not within 0 .. 1");
+  EXPECT_EQ(problem_with(PlayerSettings{.reference = 5}, clip),
+            "reference 5.000000 s is not within the clip's 0 .. 2.000000 s");
+  EXPECT_EQ(problem_with(PlayerSettings{.warp = Curve{Interpolation::Linear, {0, 1}, {1, 0}}}, clip),
+            "warp: it runs back before its first key");
+}
+
+TEST(ProblemWithPlay, NamesWhatDoesNotGoTogether) {
+  // A mask of nodes that are not there, a ratio to nothing, a matrix on a node whose link another play moves.
+  Scene scene;
+  const NodeId node = scene.create(scene.root(), "node");
+  scene.set_link(node, slider());
+  Player player{scene, clip({track(Channel::LinkValue, Interpolation::Step, {0}, {1})}, 0), {node}};
+  EXPECT_EQ(
+      problem_with(player, scene, sliding(), {node}, {}),
+      "link value and matrix of node 'node' would both be animated, by this play and another; the link's "
+      "value gives the matrix");
+  const Player none;
+  EXPECT_EQ(problem_with(none, scene, sliding(), {node}, {.mask = {{NodeId{}, 1}}}),
+            "a node of the mask is null or was removed");
+  const Clip flat = clip({track(Channel::Scale, Interpolation::Step, {0}, {1, 0, 1})}, 0);
+  EXPECT_EQ(problem_with(none, scene, flat, {node}, {.blend = Blend::Additive}),
+            "a scale is 0 at the reference time, so nothing is a ratio to it");
+  test::expect_contract([&] { player.play(scene, sliding(), {node}); }, "would both be animated");
+  test::expect_contract([&] { player.set_weight(player.plays()[0], 2.0); }, "weight 2.000000 is not within");
+  test::expect_contract([&] { player.cross_fade(PlayId{1}, PlayId{1}, {}); }, "play 1 cannot fade to itself");
+  test::expect_contract([&] { player.advance_to(-1); },
+                        "is before the present 0.000000 s; set_time goes back");
 }
 
 class ProblemWithClip : public testing::Test {
@@ -186,6 +228,18 @@ TEST_F(ProblemWithClip, NamesFaultsOfTracks) {
             "clip 'walk', track 0: last key at 2.000000 s is after the clip's end at 1.000000 s");
   EXPECT_EQ(problem(clip({}, -1)), "clip 'walk': duration is negative");
   EXPECT_EQ(problem(clip({}, kNaN)), "clip 'walk': duration is not finite");
+}
+
+TEST_F(ProblemWithClip, NamesFaultsOfEvents) {
+  // Within the clip, in order; two at once are fine.
+  Clip bad = sliding();
+  bad.events = {{0, "a"}, {1, "b"}, {1, "c"}, {2, "d"}};
+  EXPECT_EQ(problem(bad), "");
+  bad.events[3].time = 2.5;
+  EXPECT_EQ(problem(bad), "clip 'walk': event 3 at 2.500000 s is not within the clip's 0 .. 2.000000 s");
+  bad.events[3].time = 0.5;
+  EXPECT_EQ(problem(bad), "clip 'walk': event 3 at 0.500000 s is before the event before it");
+  test::expect_contract([&] { static_cast<void>(SharedClip{bad}); }, "is before the event before it");
 }
 
 TEST_F(ProblemWithClip, NamesFaultsOfTargets) {

@@ -3,8 +3,7 @@
 
 #include <cmath>
 #include <limits>
-#include <support/animated_scene.hpp>
-#include <support/random_affine.hpp>
+#include <support/blends.hpp>
 
 namespace pantin {
 namespace {
@@ -175,6 +174,58 @@ TEST(NextBreakOfPlayer, IgnoresConstantTracks) {
   // A node whose tracks have one key each never breaks, though the clip repeats.
   AnimatedScene it{clip({track(Channel::Translation, Interpolation::Linear, {0.5}, {7, 0, 0})}, 2)};
   EXPECT_EQ(it.player.next_break(it.node, 0), kInf);
+}
+
+TEST(TimeWarp, MapsPlayTimeToClipTime) {
+  // x is the clip time, so it shows the warp: half pace up to 2 s, then three times as fast, for ever.
+  const Curve warp{Interpolation::Linear, {0, 2, 3}, {0, 1, 4}};
+  AnimatedScene it{ruler(), {.warp = warp}};
+  EXPECT_DOUBLE_EQ(it.x(1), 0.5);
+  EXPECT_DOUBLE_EQ(it.x_rate(1), 0.5);
+  EXPECT_DOUBLE_EQ(it.x_rate(2.1), 3);
+  EXPECT_DOUBLE_EQ(it.x(2 + 0.2), 1.6);
+  AnimatedScene late{ruler(), {.begin = 4, .offset = 0.5, .speed = -2, .warp = warp}};
+  EXPECT_DOUBLE_EQ(late.x(3), 0.5);  // warped time 4
+  EXPECT_DOUBLE_EQ(late.x_rate(2.9), -6);
+}
+
+TEST(TimeWarp, HasExactDerivatives) {
+  // The chain rule's second term, x_s s'', counts under a warp that speeds up; fast and slow, both ways.
+  std::mt19937_64 random{52};
+  const Curve warp{Interpolation::CubicSpline, {0, 1, 2}, {1, 0, 0.2, 2, 1.5, 2, 0.1, 2.6, 1}};
+  for (int k = 0; k < 50; ++k) {
+    const double speed = test::uniform(random, 0.1, 0.4) * (k % 2 == 0 ? 1 : -1);
+    AnimatedScene it{test::random_clip(random), {.begin = 1, .offset = 0.5, .speed = speed, .warp = warp}};
+    test::expect_derivatives(it.player, it.node, test::uniform(random, 0.05, 0.95));
+  }
+}
+
+TEST(TimeWarp, BreaksWhereItBendsAndWhereKeysAreReached) {
+  // As the unwarped breaks do, each must be landed on exactly: x goes up by one at each key, whatever the
+  // warp rounds; the warp's own keys are breaks besides.
+  std::mt19937_64 random{53};
+  for (int k = 0; k < 100; ++k) {
+    const double v1 = test::uniform(random, 0.1, 2), v2 = v1 + test::uniform(random, 0.1, 2);
+    const Curve warp = k % 2 == 0
+                           ? Curve{Interpolation::Linear, {-1, 0, 1}, {0, v1, v2}}
+                           : Curve{Interpolation::CubicSpline, {-1, 0, 1}, {1, 0, 0, 0, v1, 0, 0, v2, 1}};
+    AnimatedScene it{steps(), {.speed = k % 3 == 0 ? -1.3 : 1.3, .warp = warp}};
+    double t = -3;
+    for (int n = 0; n < 15; ++n) {
+      const double next = it.player.next_break(it.node, t);
+      ASSERT_GT(next, t);
+      const double before = it.x(next, KeySide::Before), after = it.x(next, KeySide::After);
+      const bool is_bend = next == -1 || next == 0 || next == 1;
+      const double step = k % 3 == 0 ? 2 : 1;
+      if (after == before) {
+        ASSERT_TRUE(is_bend) << next;
+      } else {
+        ASSERT_EQ(after, std::fmod(before + step, 3)) << "at " << next;
+      }
+      ASSERT_EQ(it.x((t + next) / 2), before);
+      t = next;
+    }
+  }
 }
 
 }  // namespace
