@@ -55,6 +55,9 @@ struct Bridge::Impl {
   [[nodiscard]] bool is_played_between(NodeId from, const Binding* above) const;
 
   // Binding (bind.cpp)
+  /// The body that bind would make.
+  [[nodiscard]] RigidBodySettings body_settings(NodeId id, Drive drive, const Polar& at,
+                                                const RigidMotion& motion, const MassProperties& mass) const;
   Binding& bind(NodeId id, Drive drive, const Polar& at, const RigidMotion& motion,
                 const MassProperties& mass);
   void unbind(Binding& binding);

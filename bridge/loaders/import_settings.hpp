@@ -15,8 +15,8 @@ struct ImportSettings {
                                    ///< library, else where it was configured to be installed
   double cpu_s{0};                 ///< CPU time [s], > 0; 0 = 4 s and one more for each megabyte of the file
   double wall_s{0};                ///< elapsed time [s], > 0; 0 = four times the CPU time
-  std::uint64_t memory_bytes{std::uint64_t{4} << 30};  ///< address space, >= 64 MiB; not limited in builds
-                                                       ///< with address or thread sanitizer
+  std::uint64_t memory_bytes{0};   ///< address space, >= 64 MiB; 0 = 512 MiB and 100 bytes for each of the
+                                   ///< file; not limited in builds with address or thread sanitizer
 };
 
 /// Why settings cannot be used; nothing where they can.

@@ -34,10 +34,12 @@ constexpr std::array<std::string_view, 70> kExtensions{
 struct Limits {
   double cpu_s;
   double wall_s;
+  std::uint64_t memory_bytes;
 };
 Limits limits_for(const ImportSettings& settings, std::uintmax_t bytes) {
   const double cpu = settings.cpu_s > 0 ? settings.cpu_s : 4 + static_cast<double>(bytes) / 1e6;
-  return {cpu, settings.wall_s > 0 ? settings.wall_s : 4 * cpu};
+  return {cpu, settings.wall_s > 0 ? settings.wall_s : 4 * cpu,
+          settings.memory_bytes > 0 ? settings.memory_bytes : (std::uint64_t{512} << 20) + 100 * bytes};
 }
 
 std::string text_of(double seconds) {
@@ -123,7 +125,7 @@ Loaded<Model> import(const std::filesystem::path& file, const LoadOptions& optio
   const Limits limits = limits_for(settings, std::filesystem::file_size(file, ignored));
   const std::array<std::string, 4> arguments{
       std::filesystem::absolute(file).string(), std::to_string(std::llround(std::ceil(limits.cpu_s))),
-      std::to_string(settings.memory_bytes), options.geometry ? "geometry" : "hierarchy"};
+      std::to_string(limits.memory_bytes), options.geometry ? "geometry" : "hierarchy"};
   const ProcessResult ran = run_process(helper.path, arguments, {.wall_s = limits.wall_s});
   const std::string place = file.string();
   Loaded<Model> loaded;
@@ -143,7 +145,8 @@ std::optional<std::string> problem_with(const ImportSettings& settings) {
   const auto is_time = [](double t) { return t >= 0 && t <= 1e6; };
   if (!is_time(settings.cpu_s)) return "cpu_s is not between 0 and 1e6 s";
   if (!is_time(settings.wall_s)) return "wall_s is not between 0 and 1e6 s";
-  if (settings.memory_bytes < (std::uint64_t{64} << 20)) return "memory_bytes is below 64 MiB";
+  if (settings.memory_bytes != 0 && settings.memory_bytes < (std::uint64_t{64} << 20))
+    return "memory_bytes is below 64 MiB";
   return std::nullopt;
 }
 

@@ -9,8 +9,8 @@
 #include <pantin/bridge/loaders/load_assimp.hpp>
 #include <pantin/bridge/loaders/load_mesh.hpp>
 
-#include "mesh_volume.hpp"
-#include "temporary_folder.hpp"
+#include "support/mesh_volume.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pantin {
 namespace {
@@ -52,7 +52,7 @@ testing::AssertionResult has_vertex(const TriangleMesh& mesh, const Vector3& p) 
 class LoadAssimp : public testing::Test {
  protected:
   fs::path write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
-  test::TemporaryFolder folder_{"assimp"};
+  test::TemporaryFolder folder_{};
 };
 
 TEST_F(LoadAssimp, AppliesTheUnitOfColladaToLengthsAlone) {
@@ -143,6 +143,55 @@ TEST_F(LoadAssimp, ReadsTheHierarchyAlone) {
   for (const ModelNode& node : loaded.value->nodes) EXPECT_TRUE(node.meshes.empty());
   const std::vector<std::string> said = problems(loaded.notes);
   EXPECT_NE(std::find(said.begin(), said.end(), "note: file: meshes are not read, as asked for"), said.end());
+}
+
+/// The track of one channel of a node in the model's only clip.
+const Track& track_of(const Model& m, const std::string& node, Channel channel) {
+  for (const Track& track : m.clips.at(0).tracks) {
+    if (m.nodes.at(track.target).name == node && track.channel == channel) return track;
+  }
+  throw std::runtime_error{"no such track of " + node};
+}
+
+TEST_F(LoadAssimp, ReadsAnimationOfFbxAtItsTimes) {
+  // swing.fbx: the arm turns about z to 90 degrees in 1 s and back until 3 s, the post rises from 1 to 1.5 m
+  // in 3 s. Keys stand at these times; between them a turn about one axis at even speed is the same in Euler
+  // angles and on the sphere.
+  const Model swing = model("swing.fbx");
+  EXPECT_EQ(swing.unit_m, 0.01);
+  EXPECT_EQ(swing.up_axis, UpAxis::Y);
+  ASSERT_EQ(swing.clips.size(), 1u);
+  EXPECT_EQ(swing.clips[0].name, "swing");
+  EXPECT_NEAR(swing.clips[0].duration, 3, kSingle);
+  const Track& turn = track_of(swing, "arm", Channel::Rotation);
+  for (const auto& [time, degrees] :
+       {std::pair{0.0, 0.0}, {0.5, 45.0}, {1.0, 90.0}, {2.0, 45.0}, {3.0, 0.0}}) {
+    const TrackSample at = sample(turn, time);
+    EXPECT_NEAR(2 * std::atan2(at.value[3], at.value[0]), degrees * std::numbers::pi / 180, 10 * kSingle)
+        << time;
+  }
+  const Track& rise = track_of(swing, "post", Channel::Translation);
+  for (const double time : {0.0, 0.75, 1.5, 3.0})
+    EXPECT_NEAR(sample(rise, time).value[1], 1 + time / 6, kSingle) << time;
+}
+
+TEST_F(LoadAssimp, ReadsMotionCaptureAtItsTimes) {
+  // waver.bvh: four frames a quarter of a second apart; the hips rise by 0.1 m and the arm turns by 30
+  // degrees about z from each to the next. Nothing but the joints is there: assimp's skeleton mesh is not
+  // wanted.
+  const Model waver = model("waver.bvh");
+  ASSERT_EQ(waver.nodes.size(), 4u);
+  for (const ModelNode& node : waver.nodes) EXPECT_TRUE(node.meshes.empty()) << node.name;
+  EXPECT_LT((waver.nodes[1].M_PN.translation() - Vector3(0, 0.5, 0)).norm(), kSingle);
+  const Track& turn = track_of(waver, "arm", Channel::Rotation);
+  const Track& rise = track_of(waver, "hips", Channel::Translation);
+  ASSERT_EQ(rise.times.size(), 4u);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(rise.times[static_cast<std::size_t>(k)], 0.25 * k, kSingle);
+    EXPECT_NEAR(sample(rise, 0.25 * k).value[1], 1 + 0.1 * k, kSingle);
+    const TrackSample at = sample(turn, 0.25 * k);
+    EXPECT_NEAR(2 * std::atan2(at.value[3], at.value[0]), k * std::numbers::pi / 6, 10 * kSingle);
+  }
 }
 
 TEST_F(LoadAssimp, WarnsOfAmbiguousTargets) {

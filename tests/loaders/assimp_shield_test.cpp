@@ -14,7 +14,7 @@
 #include <pantin/bridge/loaders/load_assimp.hpp>
 #include <pantin/bridge/loaders/load_mesh.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pantin {
 namespace {
@@ -32,7 +32,7 @@ class Shield : public testing::Test {
     EXPECT_FALSE(loaded.value.has_value());
     return loaded.notes;
   }
-  test::TemporaryFolder folder_{"shield"};
+  test::TemporaryFolder folder_{};
 };
 
 int open_descriptors() {

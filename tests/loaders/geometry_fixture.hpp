@@ -7,7 +7,7 @@
 
 #include <pantin/bridge/loaders/load_geometry.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace pantin::test {
 
@@ -34,7 +34,7 @@ class LoadGeometry : public testing::Test {
       all.push_back(std::string{to_string(note.severity)} + ": " + note.subject + ": " + note.problem);
     return all;
   }
-  TemporaryFolder folder_{"geometry"};
+  TemporaryFolder folder_{};
 };
 
 }  // namespace pantin::test

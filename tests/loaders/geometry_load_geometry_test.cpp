@@ -6,7 +6,7 @@
 #include <pantin/bridge/loaders/load_mesh.hpp>
 
 #include "geometry_fixture.hpp"
-#include "mesh_volume.hpp"
+#include "support/mesh_volume.hpp"
 
 namespace pantin {
 namespace {
@@ -68,6 +68,19 @@ TEST_F(LoadGeometry, ReadsBinaryStl) {
   ASSERT_EQ(mesh.vertices.size(), 3u);
   EXPECT_EQ(mesh.vertices[2], Vector3(0, 0.25, 0));
   EXPECT_EQ(one.nodes[0].name, "a");
+}
+
+TEST_F(LoadGeometry, ReadsShippedBinaryFiles) {
+  // plinth.stl is a closed box of 0.4 x 0.3 x 0.2 m, wedge.ply the half of it with quads for sides; sizes are
+  // floats in the files, 6e-8 relative each.
+  const Loaded<Model> plinth = load_geometry(kMeshes / "plinth.stl");
+  const Loaded<Model> wedge = load_geometry(kMeshes / "wedge.ply");
+  for (const auto& [loaded, size] : {std::pair{&plinth, 0.024}, {&wedge, 0.012}}) {
+    ASSERT_TRUE(loaded->value.has_value());
+    const TriangleMesh& mesh = *loaded->value->nodes.at(0).meshes.at(0).mesh;
+    EXPECT_FALSE(closedness_problem(mesh).has_value());
+    EXPECT_NEAR(volume(mesh), size, 5e-9);
+  }
 }
 
 TEST_F(LoadGeometry, NamesDamageOfStl) {
