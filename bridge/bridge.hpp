@@ -97,7 +97,7 @@ class Bridge {
   [[nodiscard]] const NodeBody* node_body(NodeId id) const;  ///< nullptr where nothing is known
   /// Plays a clip from the present physics time on (settings.begin is relative to it); its nodes, and
   /// animated bodies with what hangs on them, are there at once. Null targets are left out. A node that is
-  /// animated by another clip already is an error.
+  /// animated by another clip already is an error. Links that mimic one whose value the clip moves follow.
   std::vector<Diagnostic> play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings = {});
   void stop_playing(NodeId id);  ///< removes the node from its clip; it stays where it is
   [[nodiscard]] bool is_played(NodeId id) const;
@@ -130,7 +130,9 @@ class Bridge {
   /// Sets a local matrix of a node that physics does not own; naming one that it owns breaks the contract
   /// (teleport). A static node is teleported.
   void set_local(NodeId id, const Affine& M_PN);
-  /// Sets a link's value: by the joint if the node is simulated, else by the local matrix.
+  /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
+  /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
+  /// set.
   void set_link_value(NodeId id, const LinkValue& value);
 
   // Look-up

@@ -12,6 +12,7 @@
 #include <pantin/bridge/binding.hpp>
 #include <pantin/bridge/bridge.hpp>
 #include <pantin/bridge/derive_mass.hpp>
+#include <pantin/bridge/mimic.hpp>
 #include <pantin/bridge/polar.hpp>
 
 namespace pantin {
@@ -29,6 +30,7 @@ struct Bridge::Impl {
   std::vector<std::unique_ptr<Player>> finished_players{};  ///< kept until no trajectory can name them
   std::unordered_map<NodeId, Player*> player_of{};
   std::unordered_map<NodeId, NodeBody> node_bodies{};
+  Followers followers{};  ///< links that mimic others of their model
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
   std::vector<Toggle> toggles{};      ///< by time
@@ -140,6 +142,9 @@ struct Bridge::Impl {
   [[nodiscard]] static bool is_below_written(const Binding& binding);
   void sync_out(std::vector<Diagnostic>* notes);
   void write_scene(std::vector<Diagnostic>* notes);
+
+  /// Of one link, whatever follows it.
+  void set_link_value(NodeId id, const LinkValue& value);
 
   // Time (advance.cpp)
   void meet_physics_time();
