@@ -7,8 +7,10 @@
 
 namespace pantin {
 
-std::vector<Diagnostic> Bridge::play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings) {
+std::vector<Diagnostic> Bridge::play(const Clip& given, std::vector<NodeId> targets,
+                                     PlayerSettings settings) {
   Impl& bridge = *impl_;
+  const Clip clip = with_followers(given, bridge.followers, targets);
   bridge.forget_vanished();
   bridge.notice_moves();
   std::vector<Diagnostic> notes;
@@ -183,18 +185,29 @@ void Bridge::set_link_value(NodeId id, const LinkValue& value) {
                  "set_link_value: a " + std::string{to_string(link->kind)} + " link has " +
                      std::to_string(value_size(link->kind)) + " number(s), not " +
                      std::to_string(value.size()));
-  const Binding* binding = bridge.find(id);
+  bridge.set_link_value(id, value);
+  if (value.size() != 1) return;
+  for (const Follower& follower : all_followers(bridge.followers, id)) {
+    const Link* following = bridge.scene.contains(follower.node) ? bridge.scene.link(follower.node) : nullptr;
+    if (following != nullptr && following->mimic)
+      bridge.set_link_value(follower.node, follower.multiplier * value[0] + follower.offset);
+  }
+}
+
+void Bridge::Impl::set_link_value(NodeId id, const LinkValue& value) {
+  const Link* link = scene.link(id);
+  const Binding* binding = find(id);
   if (binding == nullptr || binding->drive == Drive::Scene) {
-    set_local(id, local_matrix(*link, value));
-    bridge.scene.note_link_value(id, value);
+    self->set_local(id, local_matrix(*link, value));
+    scene.note_link_value(id, value);
   } else if (binding->drive == Drive::Physics && binding->tie.kind == Tie::Kind::Link && value.size() > 0) {
-    bridge.physics.set_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value));
-    bridge.sync_out(nullptr);
+    physics.set_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value));
+    sync_out(nullptr);
   } else if (value.size() > 0) {
-    const Affine M_WN = bridge.scene.world(bridge.scene.parent(id)) * local_matrix(*link, value);
-    const std::vector<Diagnostic> notes = teleport(id, M_WN, TeleportVelocity::Keep);
+    const Affine M_WN = scene.world(scene.parent(id)) * local_matrix(*link, value);
+    const std::vector<Diagnostic> notes = self->teleport(id, M_WN, TeleportVelocity::Keep);
     PANTIN_EXPECTS(!has_error(notes), "set_link_value: " + to_string(notes.back()));
-    bridge.scene.note_link_value(id, value);
+    scene.note_link_value(id, value);
   }
 }
 

@@ -12,6 +12,21 @@ BodyKind kind_at_birth(Drive drive) {
 
 }  // namespace
 
+RigidBodySettings Bridge::Impl::body_settings(NodeId id, Drive drive, const Polar& at,
+                                              const RigidMotion& motion, const MassProperties& mass) const {
+  RigidBodySettings settings;
+  settings.name = scene.name(id);
+  settings.kind = kind_at_birth(drive);
+  settings.X_WB = {scene.world(id).translation(), at.q};
+  settings.v_WBcm = motion.v_AB + motion.w_AB.cross(at.q * mass.p_BBcm);
+  settings.w_WB = motion.w_AB;
+  settings.inertia_check = InertiaCheck::Solvable;
+  // A mass that no body has may be sound together with what the node is fixed to: assign_masses judges that.
+  if (!problem_with(mass, InertiaCheck::Solvable)) settings.mass = mass;
+  else settings.mass = {0, Vector3::Zero(), Matrix3::Zero()};
+  return settings;
+}
+
 // An animated body is born static: its trajectory depends on what else is bound, which reconcile looks at.
 Binding& Bridge::Impl::bind(NodeId id, Drive drive, const Polar& at, const RigidMotion& motion,
                             const MassProperties& mass) {
@@ -21,17 +36,7 @@ Binding& Bridge::Impl::bind(NodeId id, Drive drive, const Polar& at, const Rigid
   binding->M_BN = residual_of(at);
   binding->own_mass = mass;
   binding->M_WN = scene.world(id);
-  RigidBodySettings settings;
-  settings.name = scene.name(id);
-  settings.kind = kind_at_birth(drive);
-  settings.X_WB = {binding->M_WN.translation(), at.q};
-  settings.v_WBcm = motion.v_AB + motion.w_AB.cross(at.q * mass.p_BBcm);
-  settings.w_WB = motion.w_AB;
-  settings.inertia_check = InertiaCheck::Solvable;
-  // A mass that no body has may be sound together with what the node is fixed to: assign_masses judges that.
-  if (!problem_with(mass, InertiaCheck::Solvable)) settings.mass = mass;
-  else settings.mass = {0, Vector3::Zero(), Matrix3::Zero()};
-  binding->body = physics.add(std::move(settings));
+  binding->body = physics.add(body_settings(id, drive, at, motion, mass));
   Binding& bound = *binding;
   by_body[bound.body] = &bound;
   bindings[id] = std::move(binding);

@@ -100,6 +100,7 @@ class Bridge {
   /// relative to it. Its nodes, and animated bodies with what hangs on them, are there at once. Null targets
   /// are left out. A node that another clip has to itself (Override on the same layer, both with the weight
   /// 1) is an error; with other layers or weights clips are blended (player.hpp).
+  /// Links that mimic one whose value the clip moves follow.
   std::vector<Diagnostic> play(const Clip& clip, std::vector<NodeId> targets, PlayerSettings settings = {});
   void stop_playing(NodeId id);  ///< removes the node from its clips; it stays where it is
   void stop_playing(PlayId id);  ///< nodes that nothing else plays on stay where they are
@@ -138,7 +139,9 @@ class Bridge {
   /// Sets a local matrix of a node that physics does not own; naming one that it owns breaks the contract
   /// (teleport). A static node is teleported.
   void set_local(NodeId id, const Affine& M_PN);
-  /// Sets a link's value: by the joint if the node is simulated, else by the local matrix.
+  /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
+  /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
+  /// set.
   void set_link_value(NodeId id, const LinkValue& value);
 
   // Look-up

@@ -13,6 +13,7 @@
 #include <pantin/bridge/binding.hpp>
 #include <pantin/bridge/bridge.hpp>
 #include <pantin/bridge/derive_mass.hpp>
+#include <pantin/bridge/mimic.hpp>
 #include <pantin/bridge/polar.hpp>
 
 namespace pantin {
@@ -30,6 +31,7 @@ struct Bridge::Impl {
   std::unordered_set<NodeId> leaving{};  ///< being taken out of the player, which trajectories still ask
   std::vector<PlayedEvent> passed{};     ///< since the last advance
   std::unordered_map<NodeId, NodeBody> node_bodies{};
+  Followers followers{};  ///< links that mimic others of their model
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
   std::vector<Toggle> toggles{};      ///< by time
@@ -57,6 +59,9 @@ struct Bridge::Impl {
   [[nodiscard]] bool is_played_between(NodeId from, const Binding* above) const;
 
   // Binding (bind.cpp)
+  /// The body that bind would make.
+  [[nodiscard]] RigidBodySettings body_settings(NodeId id, Drive drive, const Polar& at,
+                                                const RigidMotion& motion, const MassProperties& mass) const;
   Binding& bind(NodeId id, Drive drive, const Polar& at, const RigidMotion& motion,
                 const MassProperties& mass);
   void unbind(Binding& binding);
@@ -143,6 +148,9 @@ struct Bridge::Impl {
   void sync_out(std::vector<Diagnostic>* notes);
   void write_scene(std::vector<Diagnostic>* notes);
   void play_on();
+
+  /// Of one link, whatever follows it.
+  void set_link_value(NodeId id, const LinkValue& value);
 
   // Time (advance.cpp)
   void meet_physics_time();

@@ -88,6 +88,12 @@ class Bridge::Impl::HandOver {
     if (!planned.mass.known && bridge_.scene.link(id) == nullptr) {
       return error(id, "it has no mass, and neither shapes nor meshes to derive one from");
     }
+    // Numbers that are finite one by one may overflow when they are multiplied.
+    const RigidBodySettings body =
+        bridge_.body_settings(id, Drive::Physics, planned.at, planned.motion.X, planned.mass.mass);
+    if (const std::optional<SettingsProblem> problem = pantin::problem_with(body)) {
+      return error(id, problem->text, "give it and its ancestors numbers of sensible size");
+    }
     judge_inertia(planned);
     plan_.push_back(std::move(planned));
   }

@@ -59,6 +59,7 @@ Instance Bridge::instantiate(const Model& model, NodeId parent, const Instantiat
       set_node_body(id, body_of_model(node));
     if (top) instance.root = id, ++tops;
   }
+  add_followers(scene, instance.nodes, bridge.followers);
   if (!settings.prefix.empty() || tops != 1) instance.root = above;
   return instance;
 }

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 #include <unordered_set>
 
+#include <pantin/bridge/mimic.hpp>
 #include <pantin/bridge/writers/link_keys.hpp>
 
 #include <pantin/bridge/cli/arguments.hpp>
@@ -95,32 +95,16 @@ void judge_limits(const Scene& scene, const LinkKeys& keys, const Setting& setti
   }
 }
 
-/// Sets what follows the named links, breadth first, each once.
+/// Sets what follows the named links.
 void follow_mimics(Scene& scene, const std::vector<NodeId>& model, const std::vector<Setting>& settings) {
-  std::unordered_multimap<std::string, NodeId> followers;  // by the name of what leads
-  std::unordered_set<NodeId> done;
-  for (const NodeId id : model) {
-    const Link* link = scene.link(id);
-    if (link != nullptr && link->mimic) followers.emplace(link->mimic->source, id);
-  }
-  std::vector<NodeId> leaders;
+  Followers followers;
+  add_followers(scene, model, followers);
+  std::unordered_set<NodeId> named;
+  for (const Setting& setting : settings) named.insert(setting.node);
   for (const Setting& setting : settings) {
-    done.insert(setting.node);
-    leaders.push_back(setting.node);
-  }
-  const std::unordered_set<NodeId> members(model.begin(), model.end());
-  std::erase_if(leaders, [&](NodeId id) { return !members.contains(id); });
-  for (std::size_t i = 0; i < leaders.size(); ++i) {
-    const Link* leader = scene.link(leaders[i]);
-    if (leader->value.size() != 1) continue;
-    const double leading = leader->value[0];
-    const auto [first, last] = followers.equal_range(leader->name);
-    for (auto entry = first; entry != last; ++entry) {
-      if (!done.insert(entry->second).second) continue;
-      const LinkMimic& mimic = *scene.link(entry->second)->mimic;
-      scene.set_link_value(entry->second, mimic.multiplier * leading + mimic.offset);
-      leaders.push_back(entry->second);
-    }
+    if (setting.value.size() != 1) continue;
+    for (const Follower& follower : all_followers(followers, setting.node, named))
+      scene.set_link_value(follower.node, follower.multiplier * setting.value[0] + follower.offset);
   }
 }
 

@@ -83,6 +83,8 @@ ReadScene read_scene(const std::filesystem::path& file, bool geometry) {
     read.importer = std::make_shared<Assimp::Importer>();
     Assimp::Importer& importer = *read.importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);  // no $AssimpFbx$ nodes
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
+                             true);  // made up by assimp where a file has none
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, kNotNeeded);
     read.scene = importer.ReadFile(file.string(), 0);
     if (read.scene == nullptr || read.scene->mRootNode == nullptr) {

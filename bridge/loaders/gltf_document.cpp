@@ -43,8 +43,8 @@ std::string_view to_string(Collection collection) noexcept {
 }
 
 ExtensionUse use_of(std::string_view extension) noexcept {
-  constexpr std::array<std::string_view, 3> kRead{"KHR_physics_rigid_bodies", "KHR_implicit_shapes",
-                                                  "KHR_mesh_quantization"};
+  constexpr std::array<std::string_view, 4> kRead{"KHR_physics_rigid_bodies", "KHR_implicit_shapes",
+                                                  "KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
   constexpr std::array<std::string_view, 11> kAppearance{
       "KHR_materials_",   "KHR_texture_",     "KHR_lights_",         "KHR_xmp",
       "KHR_audio",        "EXT_texture_",     "EXT_lights_",         "EXT_materials_",

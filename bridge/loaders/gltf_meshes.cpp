@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "gltf_instancing.hpp"
+
 namespace pantin::gltf {
 namespace {
 
@@ -129,8 +131,11 @@ void read_meshes(const Document& document, const SceneNodes& nodes, Accessors& a
         is_read[index] = true;
         meshes[index] = reader.read(mesh);
       }
-      if (meshes[index])
-        model.nodes[i].meshes.push_back({std::string{text_or_empty(report, mesh, "name")}, meshes[index]});
+      if (!meshes[index]) return;
+      const std::string name{text_or_empty(report, mesh, "name")};
+      const auto instances = read_instances(node, document, accessors);
+      for (const Affine& M_NS : instances.value_or(std::vector{Affine::Identity()}))
+        model.nodes[i].meshes.push_back({name, meshes[index], M_NS});
     });
   }
   for (std::size_t i = 0; i < meshes.size(); ++i)

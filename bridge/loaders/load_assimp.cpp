@@ -1,193 +1,168 @@
 #include <pantin/bridge/loaders/load_assimp.hpp>
 
-#include <assimp/scene.h>
-
 #include <algorithm>
-#include <assimp/Importer.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstring>
 #include <exception>
-#include <iterator>
-#include <utility>
+#include <system_error>
 
 #include <pantin/bridge/input_file.hpp>
-#include <pantin/bridge/loaders/assimp_animation.hpp>
-#include <pantin/bridge/loaders/assimp_frame.hpp>
-#include <pantin/bridge/loaders/assimp_mesh.hpp>
-#include <pantin/bridge/loaders/assimp_scene.hpp>
+#include <pantin/bridge/loaders/import_place.hpp>
+#include <pantin/bridge/loaders/import_process.hpp>
+#include <pantin/bridge/loaders/import_wire.hpp>
 
 namespace pantin {
 namespace {
 
-using assimp_loader::ReadScene;
-using Notes = std::vector<Diagnostic>;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{2} << 30;
+constexpr const char* kCheckFile = "check that the file opens in the program that wrote it";
 
-/// A node with the position of its parent in the list; -1 = top.
-struct Placed {
-  const aiNode* node;
-  std::int32_t parent;
+/// assimp 5.2's; a test compares them with those of the assimp in use.
+constexpr std::array<std::string_view, 70> kExtensions{
+    ".3d",  ".3ds",   ".3mf", ".ac",      ".ac3d",      ".acc",     ".amf",  ".ase",     ".ask",  ".assbin",
+    ".b3d", ".blend", ".bsp", ".bvh",     ".cob",       ".csm",     ".dae",  ".dxf",     ".enff", ".fbx",
+    ".glb", ".gltf",  ".hmp", ".ifc",     ".ifczip",    ".iqm",     ".irr",  ".irrmesh", ".lwo",  ".lws",
+    ".lxo", ".md2",   ".md3", ".md5anim", ".md5camera", ".md5mesh", ".mdc",  ".mdl",     ".mesh", ".mesh.xml",
+    ".mot", ".ms3d",  ".ndo", ".nff",     ".obj",       ".off",     ".ogex", ".pk3",     ".ply",  ".pmx",
+    ".prj", ".q3o",   ".q3s", ".raw",     ".scn",       ".sib",     ".smd",  ".step",    ".stl",  ".stp",
+    ".ter", ".uc",    ".vta", ".x",       ".x3d",       ".x3db",    ".xgl",  ".xml",     ".zae",  ".zgl"};
+
+/// The limits for one file.
+struct Limits {
+  double cpu_s;
+  double wall_s;
+  std::uint64_t memory_bytes;
 };
+Limits limits_for(const ImportSettings& settings, std::uintmax_t bytes) {
+  const double cpu = settings.cpu_s > 0 ? settings.cpu_s : 4 + static_cast<double>(bytes) / 1e6;
+  return {cpu, settings.wall_s > 0 ? settings.wall_s : 4 * cpu,
+          settings.memory_bytes > 0 ? settings.memory_bytes : (std::uint64_t{512} << 20) + 100 * bytes};
+}
 
-/// All nodes, parents first, in depth-first order.
-std::vector<Placed> in_order(const aiScene& scene) {
-  std::vector<Placed> order;
-  std::vector<Placed> open{{scene.mRootNode, -1}};
-  while (!open.empty()) {
-    const Placed placed = open.back();
-    open.pop_back();
-    const auto position = static_cast<std::int32_t>(order.size());
-    order.push_back(placed);
-    for (unsigned i = placed.node->mNumChildren; i-- > 0;)
-      open.push_back({placed.node->mChildren[i], position});
+std::string text_of(double seconds) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), seconds,
+                                 std::chars_format::fixed, seconds < 10 ? 1 : 0);
+  return {buffer.data(), end.ptr};
+}
+
+/// "SIGSEGV", and what it means.
+std::string signal_text(int signal) {
+  const char* name = sigabbrev_np(signal);
+  const char* meaning = sigdescr_np(signal);
+  return (name != nullptr ? std::string{"SIG"} + name : "signal " + std::to_string(signal)) +
+         (meaning != nullptr ? std::string{" ("} + meaning + ')' : "");
+}
+
+Diagnostic failure(const std::filesystem::path& file, std::string problem, std::string remedy) {
+  return {Severity::Error, file.string(), "file", std::move(problem), std::move(remedy)};
+}
+
+Diagnostic missing(const std::filesystem::path& file, const ImportHelper& helper) {
+  std::string places;
+  for (const std::filesystem::path& tried : helper.tried)
+    places += (places.empty() ? "" : ", ") + tried.string();
+  return failure(file, "needs the helper pantin-import, which is not there; looked for " + places,
+                 "install it, or name it in the environment variable PANTIN_IMPORT");
+}
+
+/// Why there is no answer; nothing where there may be one.
+std::optional<Diagnostic> problem_with(const ProcessResult& ran, const std::filesystem::path& file,
+                                       const std::filesystem::path& helper, const Limits& limits) {
+  const std::string raise = "; or allow it more (ImportSettings)";
+  switch (ran.end) {
+    case ProcessEnd::NotStarted:
+      return failure(file,
+                     "the helper " + helper.string() + " cannot be started: " + std::strerror(ran.detail),
+                     "check that it may be executed");
+    case ProcessEnd::Signalled:
+      if (ran.detail == SIGXCPU) {
+        return failure(file, "its parser met the limit of " + text_of(limits.cpu_s) + " s of CPU time",
+                       kCheckFile + raise);
+      }
+      return failure(file, "its parser crashed: " + signal_text(ran.detail), kCheckFile);
+    case ProcessEnd::TimedOut:
+      return failure(file, "its parser met the limit of " + text_of(limits.wall_s) + " s of elapsed time",
+                     kCheckFile + raise);
+    case ProcessEnd::TooMuch:
+      return failure(file, "its parser makes more than 2 GiB of it", kCheckFile);
+    case ProcessEnd::Exited:
+      if (ran.detail == 0) return std::nullopt;
+      return failure(file, "the helper " + helper.string() + " ended with code " + std::to_string(ran.detail),
+                     "use the pantin-import that was built with this library");
+    case ProcessEnd::Unseen:
+      break;  // what it wrote decides
   }
-  return order;
+  return std::nullopt;
 }
 
-/// The node's matrix in metres, without what assimp worked into the top node.
-Affine local_of(const Placed& placed, const assimp_loader::FileFrame& frame) {
-  if (placed.parent < 0 && frame.top_is_correction) return Affine::Identity();
-  return assimp_loader::matrix_of(*placed.node, frame.unit_m);
-}
-
-void note_others(std::size_t others, const std::string& place, Notes& notes) {
-  if (others == 0) return;
-  notes.push_back(
-      {Severity::Warning, place, "meshes", std::to_string(others) + " points or lines are dropped", ""});
-}
-
-/// Each of assimp's meshes as triangles; null with a finding where it is unusable or has no triangle.
-std::vector<std::shared_ptr<const TriangleMesh>> meshes_of(const aiScene& scene, double unit_m,
-                                                           const std::string& place, Notes& notes) {
-  std::vector<std::shared_ptr<const TriangleMesh>> meshes;
-  std::size_t others = 0;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    auto triangles = std::make_shared<TriangleMesh>();
-    const auto problem =
-        assimp_loader::append_triangles(*scene.mMeshes[i], Affine::Identity(), unit_m, *triangles, others);
-    if (problem) {
-      notes.push_back({Severity::Warning, place, "mesh '" + assimp_loader::name_of(*scene.mMeshes[i]) + '\'',
-                       *problem + "; dropped", ""});
-    }
-    if (triangles->triangles.empty()) triangles.reset();
-    meshes.push_back(std::move(triangles));
+/// What the helper printed, line by line: the first few, and how many more.
+void note_noise(const std::string& noise, const std::string& place, std::vector<Diagnostic>& notes) {
+  constexpr int kMost = 3;
+  int lines = 0;
+  std::string shown;
+  for (std::size_t at = 0; at < noise.size();) {
+    const std::size_t end = std::min(noise.find('\n', at), noise.size());
+    if (end > at && ++lines <= kMost) shown += (shown.empty() ? "" : " | ") + noise.substr(at, end - at);
+    at = end + 1;
   }
-  note_others(others, place, notes);
-  return meshes;
+  if (lines == 0) return;
+  if (lines > kMost) shown += " (and " + std::to_string(lines - kMost) + " more lines)";
+  notes.push_back({Severity::Note, place, "parser", "printed: " + shown, ""});
 }
 
-Model model_of(const ReadScene& read, const std::filesystem::path& file, bool geometry, Notes& notes) {
+Loaded<Model> import(const std::filesystem::path& file, const LoadOptions& options) {
+  const ImportSettings& settings = options.import;
+  if (auto problem = problem_with_file(file, kMaxBytes)) return {{}, {*std::move(problem)}};
+  if (const auto problem = problem_with(settings))
+    return {{}, {failure(file, "the settings of the import are unusable: " + *problem, "mend them")}};
+  const ImportHelper helper = find_import_helper(settings.helper);
+  if (helper.path.empty()) return {{}, {missing(file, helper)}};
+  std::error_code ignored;
+  const Limits limits = limits_for(settings, std::filesystem::file_size(file, ignored));
+  const std::array<std::string, 4> arguments{
+      std::filesystem::absolute(file).string(), std::to_string(std::llround(std::ceil(limits.cpu_s))),
+      std::to_string(limits.memory_bytes), options.geometry ? "geometry" : "hierarchy"};
+  const ProcessResult ran = run_process(helper.path, arguments, {.wall_s = limits.wall_s});
   const std::string place = file.string();
-  Model model{.name = file.stem().string(),
-              .format = read.extension,
-              .up_axis = read.frame.up_axis,
-              .unit_m = read.frame.unit_m};
-  const auto meshes = geometry ? meshes_of(*read.scene, model.unit_m, place, notes)
-                               : std::vector<std::shared_ptr<const TriangleMesh>>{};
-  for (const Placed& placed : in_order(*read.scene)) {
-    ModelNode node{.name = assimp_loader::name_of(*placed.node),
-                   .parent = placed.parent,
-                   .M_PN = local_of(placed, read.frame),
-                   .place = place};
-    if (!node.M_PN.matrix().allFinite()) {
-      notes.push_back({Severity::Error, place, "node '" + node.name + '\'', "has a matrix that is not finite",
-                       "mend the file"});
-    }
-    for (unsigned i = 0; i < placed.node->mNumMeshes; ++i) {
-      const unsigned index = placed.node->mMeshes[i];
-      if (index >= meshes.size() || meshes[index] == nullptr) continue;
-      node.meshes.push_back(
-          {assimp_loader::name_of(*read.scene->mMeshes[index]), meshes[index], Affine::Identity()});
-    }
-    model.nodes.push_back(std::move(node));
+  Loaded<Model> loaded;
+  if (auto problem = problem_with(ran, file, helper.path, limits)) {
+    loaded.notes.push_back(*std::move(problem));
+  } else {
+    loaded = decode(ran.result, place);
+    for (Diagnostic& note : loaded.notes) note.place = place;  // one file, named as the caller named it
   }
-  assimp_loader::add_clips(*read.scene, place, model, notes);
-  return model;
-}
-
-/// All triangles in the frame of the file.
-TriangleMesh all_triangles(const ReadScene& read, const std::string& place, Notes& notes) {
-  const std::vector<Placed> order = in_order(*read.scene);
-  std::vector<Affine> M_FN;  // node in the file's frame
-  M_FN.reserve(order.size());
-  TriangleMesh all;
-  std::size_t others = 0;
-  for (const Placed& placed : order) {
-    const Affine local = local_of(placed, read.frame);
-    M_FN.push_back(placed.parent < 0 ? local : M_FN[static_cast<std::size_t>(placed.parent)] * local);
-    for (unsigned i = 0; i < placed.node->mNumMeshes; ++i) {
-      if (placed.node->mMeshes[i] >= read.scene->mNumMeshes) continue;
-      const aiMesh& mesh = *read.scene->mMeshes[placed.node->mMeshes[i]];
-      const auto problem = assimp_loader::append_triangles(mesh, M_FN.back(), read.frame.unit_m, all, others);
-      if (!problem) continue;
-      notes.push_back({Severity::Warning, place, "mesh '" + assimp_loader::name_of(mesh) + '\'',
-                       *problem + "; dropped", ""});
-    }
-  }
-  note_others(others, place, notes);
-  return all;
-}
-
-void append(Notes& notes, Notes more) { std::move(more.begin(), more.end(), std::back_inserter(notes)); }
-
-Diagnostic unexpected(const std::filesystem::path& file, const std::exception& e) {
-  return {Severity::Error, file.string(), "file", std::string{"cannot be read: "} + e.what(), ""};
+  note_noise(ran.noise, place, loaded.notes);
+  return loaded;
 }
 
 }  // namespace
 
-Loaded<Model> load_assimp(const std::filesystem::path& file, const LoadOptions& options) {
-  Loaded<Model> loaded;
-  try {
-    ReadScene read = assimp_loader::read_scene(file, options.geometry);
-    loaded.notes = std::move(read.notes);
-    if (read.scene == nullptr) return loaded;
-    append(loaded.notes, assimp_loader::notes_about(read.frame, file.string()));
-    if (!read.left_out.text.empty()) {
-      loaded.notes.push_back({Severity::Note, file.string(), "file",
-                              "not needed for physics and dropped: " + read.left_out.text, ""});
-    }
-    if (!options.geometry && read.scene->HasMeshes()) {
-      loaded.notes.push_back(
-          {Severity::Note, file.string(), "file", "meshes are not read, as asked for", ""});
-    }
-    loaded.value = model_of(read, file, options.geometry, loaded.notes);
-  } catch (const std::exception& e) {
-    loaded.notes.push_back(unexpected(file, e));
-  }
-  if (has_error(loaded.notes)) loaded.value.reset();
-  return loaded;
+std::optional<std::string> problem_with(const ImportSettings& settings) {
+  const auto is_time = [](double t) { return t >= 0 && t <= 1e6; };
+  if (!is_time(settings.cpu_s)) return "cpu_s is not between 0 and 1e6 s";
+  if (!is_time(settings.wall_s)) return "wall_s is not between 0 and 1e6 s";
+  if (settings.memory_bytes != 0 && settings.memory_bytes < (std::uint64_t{64} << 20))
+    return "memory_bytes is below 64 MiB";
+  return std::nullopt;
 }
 
-Loaded<std::shared_ptr<const TriangleMesh>> load_mesh(const std::filesystem::path& file) {
-  Loaded<std::shared_ptr<const TriangleMesh>> loaded;
+Loaded<Model> load_assimp(const std::filesystem::path& file, const LoadOptions& options) {
   try {
-    ReadScene read = assimp_loader::read_scene(file, true);
-    loaded.notes = std::move(read.notes);
-    if (read.scene == nullptr) return loaded;
-    const std::string place = file.string();
-    for (Diagnostic& note : assimp_loader::notes_about(read.frame, place)) {
-      // That STL and OBJ say nothing is known to whoever writes URDF, and the up axis is not used.
-      if (read.frame.states_unit && note.subject == "unit") loaded.notes.push_back(std::move(note));
-    }
-    auto mesh = std::make_shared<const TriangleMesh>(all_triangles(read, place, loaded.notes));
-    if (mesh->triangles.empty()) {
-      loaded.notes.push_back(
-          {Severity::Error, place, "file", "holds no triangle", "check that it holds a mesh"});
-      return loaded;
-    }
-    loaded.value = std::move(mesh);
+    return import(file, options);
   } catch (const std::exception& e) {
-    loaded.notes.push_back(unexpected(file, e));
+    return {{}, {failure(file, std::string{"cannot be read: "} + e.what(), "")}};
   }
-  return loaded;
 }
+
+std::span<const std::string_view> assimp_extensions() { return kExtensions; }
 
 bool assimp_reads(const std::filesystem::path& file) {
-  try {
-    const std::string extension = lower_extension(file);
-    if (extension.size() < 2 || extension == ".xml") return false;
-    return Assimp::Importer{}.IsExtensionSupported(extension);
-  } catch (const std::exception&) {
-    return false;
-  }
+  const std::string extension = lower_extension(file);
+  return extension != ".xml" && std::binary_search(kExtensions.begin(), kExtensions.end(), extension);
 }
 
 }  // namespace pantin

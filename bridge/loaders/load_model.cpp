@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include <pantin/bridge/input_file.hpp>
+#include <pantin/bridge/loaders/load_geometry.hpp>
+#include <pantin/bridge/loaders/load_mesh.hpp>
 #ifdef PANTIN_HAS_LOAD_ASSIMP
 #include <pantin/bridge/loaders/load_assimp.hpp>
 #endif
@@ -44,9 +46,8 @@ Loaded<Model> failure(const std::filesystem::path& file, std::string problem, st
 #ifdef PANTIN_HAS_LOAD_URDF
 Loaded<Model> load_urdf_with_meshes(const std::filesystem::path& file, const LoadOptions& options) {
   LoadOptions complete = options;
-#ifdef PANTIN_HAS_LOAD_ASSIMP
-  if (!complete.mesh_reader) complete.mesh_reader = load_mesh;
-#endif
+  if (!complete.mesh_reader)
+    complete.mesh_reader = [&options](const std::filesystem::path& mesh) { return load_mesh(mesh, options); };
   return load_urdf(file, complete);
 }
 constexpr auto kLoadUrdf = &load_urdf_with_meshes;
@@ -87,6 +88,10 @@ constexpr std::array kLoaders{
                   look.head.find("\"asset\"") != std::string::npos);
         },
         kLoadGltf},
+    Loader{
+        "load-geometry", [](const auto& file, const Look&) { return geometry_reads(file); },
+        [](const Look& look) { return look.head.starts_with("ply\n") || look.head.starts_with("ply\r\n"); },
+        &load_geometry},
     Loader{"load-assimp", &foreign, [](const Look&) { return true; }, kLoadAssimp},
 };
 
@@ -122,14 +127,6 @@ Loaded<Model> load_model(const std::filesystem::path& file, const LoadOptions& o
     return loaded;
   } catch (const std::exception& e) {
     return failure(file, std::string{"cannot be read: "} + e.what(), "");
-  }
-}
-
-bool parser_is_unshielded(const std::filesystem::path& file) {
-  try {
-    return !problem_with_file(file, kMaxBytes) && loader_for(file).component == "load-assimp";
-  } catch (const std::exception&) {
-    return false;  // what cannot be looked at is not parsed either
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <pantin/bridge/diagnostic.hpp>
+#include <pantin/bridge/loaders/import_settings.hpp>
 #include <pantin/bridge/model.hpp>
 
 namespace pantin {
@@ -18,14 +19,12 @@ struct LoadOptions {
   std::vector<std::filesystem::path> package_paths{};  ///< searched first for package:// (URDF)
   bool geometry{true};       ///< read mesh files and mesh data; false = hierarchy only
   MeshReader mesh_reader{};  ///< for mesh files that a model names (URDF); empty = load_model
-                             ///< puts load_mesh here where it is built, others read none
+                             ///< puts load_mesh here, others read none
+  ImportSettings import{};   ///< of formats that are parsed in a process of their own
 };
 
 /// The format is chosen by file name extension, else by content. Never throws and never aborts for bad input:
 /// a file that cannot be used gives no value and at least one error in the notes.
 [[nodiscard]] Loaded<Model> load_model(const std::filesystem::path& file, const LoadOptions& options = {});
-
-/// True for formats whose foreign parser runs unprotected in this process (everything read by assimp).
-[[nodiscard]] bool parser_is_unshielded(const std::filesystem::path& file);
 
 }  // namespace pantin

@@ -4,7 +4,9 @@
 #include <urdf_model/link.h>
 #include <urdf_model/model.h>
 
+#include <cmath>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace pantin::urdf_loader {
@@ -144,6 +146,29 @@ void add_joint(const urdf::Joint& joint, const JointEntry& entry, ModelNode& nod
   if (joint.dynamics) node.dynamics = LinkDynamics{joint.dynamics->damping, joint.dynamics->friction};
 }
 
+/// Links that follow others start where these have them; chains of them end, as the survey saw to.
+void start_mimics(Model& model, Ledger& ledger) {
+  std::unordered_map<std::string, Link*> by_name;
+  for (ModelNode& node : model.nodes)
+    if (node.link) by_name.try_emplace(node.link->name, &*node.link);
+  for (ModelNode& node : model.nodes) {
+    if (!node.link || !node.link->mimic) continue;
+    double factor = 1;  // against the link at the end of the chain, whose value is 0
+    double value = 0;
+    for (const Link* link = &*node.link; link->mimic; link = by_name.at(link->mimic->source)) {
+      value += factor * link->mimic->offset;
+      factor *= link->mimic->multiplier;
+    }
+    if (!std::isfinite(value)) {
+      ledger.error({0, "joint '" + node.link->name + "'", "its mimic starts at a value that is not finite",
+                    "check multipliers and offsets"});
+      continue;
+    }
+    node.link->value = value;
+    node.M_PN = local_matrix(*node.link, node.link->value);
+  }
+}
+
 }  // namespace
 
 std::optional<Model> build_model(const urdf::ModelInterface& robot, const Survey& survey, Meshes& meshes,
@@ -175,6 +200,8 @@ std::optional<Model> build_model(const urdf::ModelInterface& robot, const Survey
     }
     model.nodes.push_back(std::move(node));
   }
+  start_mimics(model, ledger);
+  if (ledger.has_error()) return std::nullopt;
   return model;
 }
 

@@ -64,9 +64,17 @@ const JsonValue* ObjectReader::take_required(std::string_view key, JsonKind kind
   return take(key, kind);
 }
 
+bool ObjectReader::is_sensible(std::string_view key, const JsonValue& number) {
+  constexpr double kGreatest = 1e150;  // products of two are finite, so positions and moments are
+  if (std::abs(number.number) <= kGreatest) return true;
+  error(key, "holds a number beyond 1e150, too great to be computed with", "choose numbers of sensible size");
+  return false;
+}
+
 std::optional<double> ObjectReader::number_if(std::string_view key) {
   const JsonValue* found = take(key, JsonKind::Number);
-  return found != nullptr ? std::optional{found->number} : std::nullopt;
+  if (found == nullptr || !is_sensible(key, *found)) return std::nullopt;
+  return found->number;
 }
 
 double ObjectReader::number(std::string_view key) {
@@ -91,6 +99,9 @@ std::optional<Eigen::VectorXd> ObjectReader::numbers(std::string_view key, const
   if (list.elements.size() != count || !all_numbers) {
     error(key, "is not a list of " + std::to_string(count) + " numbers", "mend it");
     return std::nullopt;
+  }
+  for (const JsonValue& element : list.elements) {
+    if (!is_sensible(key, element)) return std::nullopt;
   }
   Eigen::VectorXd out(static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) out[static_cast<Eigen::Index>(i)] = list.elements[i].number;

@@ -58,6 +58,8 @@ class ObjectReader {
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
   const JsonValue* take(std::string_view key, JsonKind kind);  ///< null where absent or of another kind
   const JsonValue* take_required(std::string_view key, JsonKind kind);
+  /// Whether it may be computed with; an error where it may not.
+  bool is_sensible(std::string_view key, const JsonValue& number);
   std::optional<Eigen::VectorXd> numbers(std::string_view key, const JsonValue& list, std::size_t count);
   void missing(std::string_view key);
 

@@ -48,6 +48,13 @@ INSTANTIATE_TEST_SUITE_P(
                   p["gravity"] = {0, 1};
                 },
                 "/gravity: error: problem: 'gravity' is not a list of 3 numbers; mend it"},
+        BadFile{
+            "BeyondComputing",
+            [](json& p) {
+              p["gravity"] = {0, -1e151, 0};
+            },
+            "/gravity: error: problem: 'gravity' holds a number beyond 1e150, too great to be computed with; "
+            "choose numbers of sensible size"},
         BadFile{"ShortMatrix", [](json& p) { p["bodies"][0]["inertia_cog_body"].erase(2); },
                 "/bodies/0/inertia_cog_body: error: body 'rod': 'inertia_cog_body' is not a list of three "
                 "rows; mend "

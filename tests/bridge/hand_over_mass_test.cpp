@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "support/stage.hpp"
 
@@ -62,6 +63,20 @@ TEST(HandOver, RefusesANodeWithoutMassAndGeometry) {
   EXPECT_NE(notes[0].remedy.find("declare a mass"), std::string::npos);
   EXPECT_TRUE(s.physics.bodies().empty());
   EXPECT_TRUE(says(s.bridge.hand_over(s.scene.root()), "/", "there is nothing to simulate"));
+}
+
+TEST(HandOver, RefusesNumbersThatOverflow) {
+  // Each number is finite, their sum is not: the centre of gravity of this mesh is beyond the greatest
+  // double.
+  Stage s;
+  const NodeId id = s.scene.create(s.scene.root(), "huge");
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->vertices = {{0, 0, 0}, {1e160, 0, 0}, {0, 1e160, 0}, {0, 0, 1e160}};
+  mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  s.bridge.set_node_body(id, {.meshes = {{"m", mesh, Affine::Identity()}}});
+  const std::vector<Diagnostic> notes = s.bridge.hand_over(id);
+  EXPECT_TRUE(has_error(notes));
+  EXPECT_FALSE(s.bridge.body_of(id));
 }
 
 TEST(HandOver, RefusesAMassWithoutInertiaOnAFreeBody) {

@@ -11,9 +11,9 @@ namespace {
 
 TEST(LoadModelByAssimp, ReadsForeignFormats) {
   // The extension leads to assimp, whose models carry it as their format.
-  const Loaded<Model> loaded = load_model(PANTIN_SOURCE_DIR "/assets/meshes/flange.obj");
+  const Loaded<Model> loaded = load_model(PANTIN_SOURCE_DIR "/assets/meshes/lever.fbx");
   ASSERT_TRUE(loaded.value.has_value());
-  EXPECT_EQ(loaded.value->format, "obj");
+  EXPECT_EQ(loaded.value->format, "fbx");
 }
 
 TEST(LoadModelByAssimp, ReadsTheMeshesOfRobots) {

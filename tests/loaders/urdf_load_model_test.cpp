@@ -61,16 +61,5 @@ TEST_F(LoadModel, NamesFilesThatCannotBeRead) {
   EXPECT_EQ(only_problem(load_model("")), "does not exist");
 }
 
-TEST_F(LoadModel, KnowsWhichParsersAreUnshielded) {
-  // Robots and glTF are read by checked code; what is not there is not parsed.
-  EXPECT_FALSE(parser_is_unshielded(write("a.urdf", kRobot)));
-  EXPECT_FALSE(parser_is_unshielded(write("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}")));
-  EXPECT_FALSE(parser_is_unshielded(write("b", "{\"asset\":{\"version\":\"2.0\"}}")));
-  EXPECT_FALSE(parser_is_unshielded(write("c", "glTF\2")));
-  EXPECT_FALSE(parser_is_unshielded(folder_ / "nothing.stl"));
-  EXPECT_TRUE(parser_is_unshielded(write("a.stl", "solid a\nendsolid a\n")));
-  EXPECT_TRUE(parser_is_unshielded(write("d", "anything else")));
-}
-
 }  // namespace
 }  // namespace pantin

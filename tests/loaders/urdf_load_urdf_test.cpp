@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -44,6 +45,10 @@ std::string chain(int links) {
   return text + "</robot>\n";
 }
 
+void add_to_joint(std::string& text, const std::string& joint, const std::string& element) {
+  text.insert(text.find("</joint>", text.find("name=\"" + joint + '"')), element);
+}
+
 TEST_F(LoadUrdf, TakesAChainOfAnyLength) {
   // 50,000 links in a row: recursion over the tree, here or in urdfdom's destructor, would overflow the
   // stack.
@@ -52,6 +57,30 @@ TEST_F(LoadUrdf, TakesAChainOfAnyLength) {
   ASSERT_TRUE(loaded.value.has_value());
   ASSERT_EQ(loaded.value->nodes.size(), static_cast<std::size_t>(kLinks));
   for (int i = 0; i < kLinks; ++i) ASSERT_EQ(loaded.value->nodes[static_cast<std::size_t>(i)].parent, i - 1);
+}
+
+TEST_F(LoadUrdf, StartsMimicsWhereTheirLeadersHaveThem) {
+  // j3 = 2 j2 + 0.5 and j2 = -j1 + 0.25, with j1 = 0: they start at 0.25 and 1, and so do their nodes.
+  std::string text = chain(4);
+  add_to_joint(text, "j3", "<mimic joint=\"j2\" multiplier=\"2\" offset=\"0.5\"/>");
+  add_to_joint(text, "j2", "<mimic joint=\"j1\" multiplier=\"-1\" offset=\"0.25\"/>");
+  const Loaded<Model> loaded = load(text);
+  ASSERT_TRUE(loaded.value.has_value());
+  for (const auto& [node, value] : {std::pair{1, 0.0}, {2, 0.25}, {3, 1.0}}) {
+    const ModelNode& at = loaded.value->nodes[static_cast<std::size_t>(node)];
+    EXPECT_DOUBLE_EQ(at.link->value[0], value);
+    EXPECT_NEAR(std::atan2(at.M_PN(1, 0), at.M_PN(0, 0)), value, 1e-15);
+  }
+}
+
+TEST_F(LoadUrdf, RefusesMimicsThatOverflow) {
+  // Each number is finite, the value that they give is not.
+  std::string text = chain(4);
+  add_to_joint(text, "j3", "<mimic joint=\"j2\" multiplier=\"1e200\" offset=\"0\"/>");
+  add_to_joint(text, "j2", "<mimic joint=\"j1\" multiplier=\"1\" offset=\"1e200\"/>");
+  const Loaded<Model> loaded = load(text);
+  EXPECT_FALSE(loaded.value.has_value());
+  EXPECT_EQ(loaded.notes.at(0).problem, "its mimic starts at a value that is not finite");
 }
 
 TEST_F(LoadUrdf, RefusesDeepNesting) {
