@@ -1,6 +1,6 @@
 #pragma once
-// Everything public in one include: scene graph, physics, bridge. Loaders are declared here and linked where
-// built.
+// Everything public in one include: scene graph, physics, bridge. Loaders, and the index of a
+// mesh's triangles, are declared here and linked where built.
 
 #include <pantin/scenegraph/affine.hpp>
 #include <pantin/scenegraph/clip.hpp>
@@ -11,6 +11,7 @@
 #include <pantin/scenegraph/scene.hpp>
 
 #include <pantin/physics/bodies_at.hpp>
+#include <pantin/physics/collision/fcl_triangle_index.hpp>
 #include <pantin/physics/constraints/ball.hpp>
 #include <pantin/physics/constraints/cylindrical.hpp>
 #include <pantin/physics/constraints/driven.hpp>
@@ -21,6 +22,12 @@
 #include <pantin/physics/constraints/screw.hpp>
 #include <pantin/physics/constraints/slider.hpp>
 #include <pantin/physics/constraints/universal.hpp>
+#include <pantin/physics/deflectors/box.hpp>
+#include <pantin/physics/deflectors/capsule.hpp>
+#include <pantin/physics/deflectors/deflector_manager.hpp>
+#include <pantin/physics/deflectors/mesh.hpp>
+#include <pantin/physics/deflectors/plane.hpp>
+#include <pantin/physics/deflectors/sphere.hpp>
 #include <pantin/physics/driver.hpp>
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/forces/constant_load.hpp>
@@ -29,10 +36,15 @@
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/forces/gravity.hpp>
 #include <pantin/physics/forces/linear_drag.hpp>
+#include <pantin/physics/forces/particle_springs.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/mass_properties.hpp>
+#include <pantin/physics/particle_system.hpp>
+#include <pantin/physics/particles/emitter.hpp>
+#include <pantin/physics/particles/particle_manager.hpp>
+#include <pantin/physics/particles/ties.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/physics/pose.hpp>
 #include <pantin/physics/problem.hpp>

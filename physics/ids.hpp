@@ -18,6 +18,19 @@ struct PhysicsId {
 using BodyId = PhysicsId<struct BodyTag>;  ///< as a joint's or force's end, null means the world
 using JointId = PhysicsId<struct JointTag>;
 using ForceId = PhysicsId<struct ForceTag>;
+using ParticleSystemId = PhysicsId<struct ParticleSystemTag>;
+using EmitterId = PhysicsId<struct EmitterTag>;
+using ParticleConstraintId = PhysicsId<struct ParticleConstraintTag>;
+using DeflectorId = PhysicsId<struct DeflectorTag>;
+
+/// One particle. Serials count up from 0 within a system and are never used again.
+struct ParticleId {
+  ParticleSystemId system{};
+  std::uint64_t serial{0};
+
+  explicit operator bool() const noexcept { return static_cast<bool>(system); }
+  friend auto operator<=>(const ParticleId&, const ParticleId&) = default;
+};
 
 }  // namespace pantin
 

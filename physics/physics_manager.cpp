@@ -36,6 +36,8 @@ void PhysicsManager::remove(BodyId id) {
   static_cast<void>(impl_->bodies.at(id));
   for (const JointId joint : impl_->constraints.joints_of(id)) remove(joint);
   impl_->forces.remove_laws_of(id);
+  impl_->deflectors.remove_deflectors_of(id);
+  impl_->particles.remove_all_of(id);
   impl_->constraints.stale(impl_->bodies);
   impl_->bodies.remove(id);
 }
@@ -246,6 +248,10 @@ JointDrift PhysicsManager::joint_drift() const { return impl_->constraints.drift
 
 ForceManager& PhysicsManager::forces() noexcept { return impl_->forces; }
 const ForceManager& PhysicsManager::forces() const noexcept { return impl_->forces; }
+ParticleManager& PhysicsManager::particles() noexcept { return impl_->particles; }
+const ParticleManager& PhysicsManager::particles() const noexcept { return impl_->particles; }
+DeflectorManager& PhysicsManager::deflectors() noexcept { return impl_->deflectors; }
+const DeflectorManager& PhysicsManager::deflectors() const noexcept { return impl_->deflectors; }
 
 void PhysicsManager::set_integrator(std::unique_ptr<Integrator> integrator) {
   PANTIN_EXPECTS(integrator != nullptr, "no integrator given; known names are those of integrator_names()");
@@ -277,7 +283,10 @@ void PhysicsManager::restore(const State& state) {
   PANTIN_EXPECTS(
       state.topology == impl_->bodies.state.topology && state.bodies.size() == impl_->bodies.size(),
       "the state was taken with other bodies, joints or kinds; restore those first");
+  PANTIN_EXPECTS(impl_->particles.fits(state.particles),
+                 "the state was taken with other particle systems or emitters; restore those first");
   impl_->bodies.state = state;
+  impl_->particles.reserve_again();
 }
 
 }  // namespace pantin

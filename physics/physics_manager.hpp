@@ -9,9 +9,11 @@
 #include <vector>
 
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/deflectors/deflector_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/state.hpp>
 #include <pantin/physics/step_report.hpp>
@@ -35,7 +37,7 @@ class PhysicsManager {
 
   // Bodies
   BodyId add(RigidBodySettings settings);
-  void remove(BodyId id);  ///< its joints and the laws that name it go first
+  void remove(BodyId id);  ///< its joints, deflectors, emitters, pins and the laws that name it go first
   [[nodiscard]] bool contains(BodyId id) const noexcept;
   [[nodiscard]] RigidBody body(BodyId id) const;
   [[nodiscard]] std::span<const BodyId> bodies() const noexcept;
@@ -46,7 +48,8 @@ class PhysicsManager {
   void make_animated(BodyId id, std::unique_ptr<Driver> driver);  ///< X_WB(t) of the body origin
   void make_static(BodyId id);
   /// Keeps the origin's pose and velocity, and the angular velocity.
-  void set_mass_properties(BodyId id, const MassProperties& mass, InertiaCheck check = InertiaCheck::Physical);
+  void set_mass_properties(BodyId id, const MassProperties& mass,
+                           InertiaCheck check = InertiaCheck::Physical);
 
   /// Teleports: the previous pose becomes the new one. What hangs on the body through joints moves along. A
   /// pose that the body's own joint does not allow is brought back to the joint at the next step.
@@ -101,6 +104,10 @@ class PhysicsManager {
 
   [[nodiscard]] ForceManager& forces() noexcept;
   [[nodiscard]] const ForceManager& forces() const noexcept;
+  [[nodiscard]] ParticleManager& particles() noexcept;
+  [[nodiscard]] const ParticleManager& particles() const noexcept;
+  [[nodiscard]] DeflectorManager& deflectors() noexcept;
+  [[nodiscard]] const DeflectorManager& deflectors() const noexcept;
   void set_integrator(std::unique_ptr<Integrator> integrator);
   [[nodiscard]] const Integrator& integrator() const noexcept;  ///< "rk4" unless set
 
@@ -113,8 +120,8 @@ class PhysicsManager {
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
   [[nodiscard]] Energy energy() const;
 
-  /// Everything integrated, as a value. Restoring continues bit for bit; bodies, joints and kinds must be the
-  /// same as when it was taken.
+  /// Everything integrated, as a value. Restoring continues bit for bit; bodies, joints, kinds, particle
+  /// systems and emitters must be the same as when it was taken.
   [[nodiscard]] State snapshot();
   void restore(const State& state);
 

@@ -3,9 +3,10 @@
 //   1  time step: cut where a driven motion breaks
 //   2  forces, 4 constraints: evaluated inside the derivative, at every stage of the integrator
 //   5  equations of motion by the chosen integrator
-//   6  impulses, velocity projection, derived values
+//   7  particles against deflectors, at the end of every part of a step that is cut
+//   6  impulses, those that particles gave among them, velocity projection, derived values
 //   8  moved bodies, energies, report
-// (3 collisions and 7 particles against deflectors have no part yet.)
+// (3 collisions have no part yet.)
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +31,9 @@ StepReport PhysicsManager::step(double h) {
   const double end = state.time + (h + state.time_compensation);
   const double slack = kBreakSlack * (std::abs(end) + h);
   const bool cut = world.next_break(state.time) < end - slack;
-  if (cut) world.before = state;
+  const bool keeps = cut || world.particles.size() > 0;
+  if (keeps) world.remember(cut);
+  world.particles.begin_step();
 
   StepReport report;
   world.dynamics.evaluations = 0;
@@ -42,7 +45,7 @@ StepReport PhysicsManager::step(double h) {
     if (state.at_break) world.pass_break();
     if (!world.update(part)) {
       report = world.failure();
-      if (cut) state = world.before;
+      if (keeps) world.go_back(cut);
       return report;
     }
     state.at_break = stop < end + slack;
@@ -63,7 +66,24 @@ StepReport PhysicsManager::step(double h) {
   report.shortest_step = world.inner.shortest;
   report.moved = world.moved.size();
   report.energy = world.energy();
+  report.particles = world.particles.finish_step();
   return report;
+}
+
+void PhysicsManager::Impl::remember(bool with_particles) {
+  // Particles are many, and become the state only where an update went well: only parts before it can touch
+  // them.
+  std::vector<ParticleSystemState> aside;
+  if (!with_particles) std::swap(aside, bodies.state.particles);
+  before = bodies.state;
+  if (!with_particles) std::swap(aside, bodies.state.particles);
+}
+
+void PhysicsManager::Impl::go_back(bool with_particles) {
+  std::vector<ParticleSystemState> aside;
+  if (!with_particles) std::swap(aside, bodies.state.particles);
+  bodies.state = before;
+  if (!with_particles) std::swap(aside, bodies.state.particles);
 }
 
 double PhysicsManager::Impl::next_break(double t) const {
@@ -97,11 +117,16 @@ bool PhysicsManager::Impl::update(double h) {
   const double t = bodies.state.time;
   StepControl* control = integrator->control();
   if (control != nullptr) control->next = bodies.state.next_step;
-  integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
+  if (Dynamics* both = particles.begin_update()) {
+    integrator->step(*both, t, h, particles.coordinates_now(), particles.velocities_now());
+    particles.bodies_have_moved();
+  } else {
+    integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
+  }
   if (dynamics.first_not_finite() >= 0) return false;
   if (control != nullptr) note_control(*control);
   dynamics.write_back(t + h);
-  return true;
+  return particles.update(t, h, *integrator);
 }
 
 void PhysicsManager::Impl::note_control(const StepControl& control) {
@@ -149,6 +174,14 @@ StepReport PhysicsManager::Impl::failure() const {
   report.status = StepStatus::NotFinite;
   report.time = bodies.state.time;
   report.evaluations = dynamics.evaluations;
+  if (const ParticleId particle = particles.not_finite()) {
+    report.particle = particle;
+    report.message = "after " + std::to_string(bodies.state.time) + " s the motion of particle " +
+                     std::to_string(particle.serial) + " of system '" +
+                     particles.system(particle.system).name() +
+                     "' is no longer finite; take a smaller step, or look for a force that is not finite";
+    return report;
+  }
   const std::int32_t i = dynamics.first_not_finite();
   const auto position = static_cast<std::size_t>(i);
   report.body = bodies.ids[position];

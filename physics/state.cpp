@@ -25,7 +25,7 @@ bool operator==(const State& a, const State& b) {
       return false;
     }
   }
-  return a.coordinates == b.coordinates && a.rates == b.rates;
+  return a.coordinates == b.coordinates && a.rates == b.rates && a.particles == b.particles;
 }
 
 std::uint64_t hash(const State& state) {
@@ -34,6 +34,12 @@ std::uint64_t hash(const State& state) {
     h = mixed(h, s.p_WBcm);
     for (int i = 0; i < 4; ++i) h = mixed(h, s.q_WB.coeffs()[i]);
     h = mixed(mixed(h, s.linear_momentum), s.angular_momentum);
+  }
+  for (const ParticleSystemState& system : state.particles) {
+    const ParticleArrays& now = system.now;
+    for (const std::vector<double>* a : {&now.x, &now.y, &now.z, &now.vx, &now.vy, &now.vz}) {
+      for (const double x : *a) h = mixed(h, x);
+    }
   }
   return h;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <pantin/physics/particles/particle_state.hpp>
 #include <pantin/physics/rigid_body.hpp>
 
 namespace pantin {
@@ -33,10 +34,11 @@ struct State {
   std::vector<double> coordinates{};  ///< of all trees, in the order of the manager's layout
   std::vector<double> rates{};
   std::vector<std::uint8_t> edited{};  ///< per tree: velocities were set from outside since the last step
+  std::vector<ParticleSystemState> particles{};
 };
 
 [[nodiscard]] bool operator==(const State& a, const State& b);
-/// 64-bit FNV-1a over the bits of poses, momenta and time.
+/// 64-bit FNV-1a over the bits of poses, momenta, particles and time.
 [[nodiscard]] std::uint64_t hash(const State& state);
 
 }  // namespace pantin

@@ -1,6 +1,7 @@
 #pragma once
 // What a step has to say: values, never callbacks.
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <pantin/physics/ids.hpp>
@@ -18,6 +19,22 @@ struct JointDrift {
   double angle{0};     ///< [rad]
 };
 
+/// All particle systems in one step.
+struct ParticleReport {
+  std::size_t count{0};          ///< alive at the end
+  std::uint64_t born{0};         ///< from emitters
+  std::uint64_t died{0};         ///< of age
+  std::uint64_t dropped{0};      ///< births that found no room: raise the capacity
+  std::uint64_t deflections{0};  ///< contacts with deflectors; of one: DeflectorManager::hits
+  std::uint64_t pushed_out{0};   ///< found inside a deflector and put on its surface
+  std::uint64_t stuck{0};        ///< began to stick to a deflector
+  std::uint64_t unresolved{0};   ///< met more surfaces in the step than are followed (Sweep::kMostContacts)
+  Energy energy{};               ///< of the particles alone [J]
+  int constraint_iterations{0};  ///< most that a solve of ties took; 0 = none
+  double constraint_error{0};    ///< greatest |length / rest - 1| of ties without compliance
+  bool converged{true};          ///< whether every solve of ties reached its tolerance
+};
+
 enum class StepStatus {
   Done,
   NotFinite,  ///< a number overflowed or became NaN; the state before the step is kept
@@ -32,9 +49,11 @@ struct StepReport {
   int refused_steps{0};     ///< that it took back for missing its tolerance
   double shortest_step{0};  ///< that it accepted [s]
   std::size_t moved{0};     ///< bodies with a changed pose
-  Energy energy{};          ///< at the end
-  BodyId body{};            ///< culprit of a failed step, if it is one body
-  std::string message{};    ///< of a failed step: what happened, where, what to do
+  Energy energy{};          ///< of bodies, at the end
+  ParticleReport particles{};
+  BodyId body{};          ///< culprit of a failed step, if it is one body
+  ParticleId particle{};  ///< the same, if it is a particle
+  std::string message{};  ///< of a failed step: what happened, where, what to do
 
   [[nodiscard]] bool ok() const noexcept { return status == StepStatus::Done; }
 };

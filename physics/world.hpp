@@ -5,8 +5,10 @@
 
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/constraint_manager.hpp>
+#include <pantin/physics/deflectors/deflector_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
@@ -18,12 +20,17 @@ struct PhysicsManager::Impl {
   ConstraintManager constraints{};
   std::unique_ptr<Integrator> integrator{make_integrator("rk4")};
   WorldDynamics dynamics{bodies, constraints, forces};
+  DeflectorManager deflectors{bodies};
+  ParticleManager particles{bodies, forces, deflectors, dynamics};
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
   State before{};       ///< of a step that is cut into parts, to go back to
+  State before{};       ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).
+  void remember(bool with_particles);
+  void go_back(bool with_particles);
   [[nodiscard]] double next_break(double t) const;
   void pass_break();
   [[nodiscard]] bool update(double h);

@@ -124,13 +124,14 @@ void WorldDynamics::gather_wrenches(Instant at) {
   } else {
     std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   }
-  forces_.gather({.t = at.t,
-                  .side = at.side,
-                  .kinematics = stage_,
-                  .mass = bodies_.mass,
-                  .kind = bodies_.kinds,
-                  .position_of = bodies_.position_of},
-                 wrenches_);
+  const BodiesAt bodies{.t = at.t,
+                        .side = at.side,
+                        .kinematics = stage_,
+                        .mass = bodies_.mass,
+                        .kind = bodies_.kinds,
+                        .position_of = bodies_.position_of};
+  forces_.gather(bodies, wrenches_);
+  if (also != nullptr) also->add_wrenches(bodies, wrenches_);
 }
 
 void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<const double> v,

@@ -12,6 +12,13 @@
 
 namespace pantin {
 
+/// What else exerts wrenches on the bodies, at every stage.
+class WrenchSource {
+ public:
+  virtual ~WrenchSource() = default;
+  virtual void add_wrenches(const BodiesAt& bodies, std::span<Wrench> wrenches) = 0;
+};
+
 class WorldDynamics final : public Dynamics {
  public:
   WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces)
@@ -22,6 +29,9 @@ class WorldDynamics final : public Dynamics {
   /// Coordinates and velocities of the state reached.
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();
+  /// The arrays that write_back reads, for whoever integrates elsewhere.
+  [[nodiscard]] std::span<double> coordinates_reached() { return q_; }
+  [[nodiscard]] std::span<double> velocities_reached() { return v_; }
   /// Position of the first body whose numbers are not finite, or, for a tree, of the first of its bodies; -1
   /// if all are.
   [[nodiscard]] std::int32_t first_not_finite() const;
@@ -46,7 +56,8 @@ class WorldDynamics final : public Dynamics {
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
                       std::span<const double> v_error, double h) override;
 
-  int evaluations{0};  ///< of v' since it was last set to 0
+  int evaluations{0};           ///< of v' since it was last set to 0
+  WrenchSource* also{nullptr};  ///< asked after the force laws; not owned
 
  private:
   void place_free(std::span<const double> q, std::span<const double> v, std::span<double> q_dot);

@@ -1,22 +1,24 @@
 #pragma once
-// The family of forces. To add one: a file with a settings struct, problem_with(settings) and make_law(settings) that
-// returns the law object; ForceManager::add finds them by the settings type. No list is to be edited.
+// The family of forces. To add one: a file with a settings struct, problem_with(settings) and
+// make_law(settings) that returns the law object; ForceManager::add finds them by the settings type. No list
+// is to be edited.
 #include <memory>
 #include <span>
 
 #include <pantin/physics/bodies_at.hpp>
 #include <pantin/physics/ids.hpp>
+#include <pantin/physics/particles/particles_at.hpp>
 
 namespace pantin {
 
-/// A force as a function of time and state. Called at every stage of the integrator, once for all bodies, so that
-/// every integrator keeps its order. Must depend on its arguments and constants only.
+/// A force as a function of time and state. Called at every stage of the integrator, once for all bodies, so
+/// that every integrator keeps its order. Must depend on its arguments and constants only.
 class ForceLaw {
  public:
   virtual ~ForceLaw() = default;
 
-  /// Adds to the wrench of each body it acts on: force in W, torque about the centre of gravity in W. What is added to
-  /// a body that is not simulated is ignored.
+  /// Adds to the wrench of each body it acts on: force in W, torque about the centre of gravity in W. What is
+  /// added to a body that is not simulated is ignored.
   virtual void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const = 0;
 
   /// Potential energy of the simulated bodies under this law [J]; 0 for a law that has none.
@@ -30,6 +32,32 @@ class ForceLaw {
   [[nodiscard]] virtual bool names(BodyId body) const {
     (void)body;
     return false;
+  }
+
+  // Particles. A law that acts on them says how, and has one of the two verbs below.
+  [[nodiscard]] virtual ParticleAction acts_on(ParticleSystemId system) const {
+    (void)system;
+    return ParticleAction::None;
+  }
+  /// ParticleAction::Each: adds to the forces on a batch of particles.
+  virtual void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const {
+    (void)at, (void)forces;
+  }
+  /// ParticleAction::Coupled: adds to the forces on the particles of the systems it couples, and to the
+  /// wrenches of the bodies it ties them to; what is added for a body that is not simulated is ignored.
+  virtual void add_coupled_forces(const BodiesAt& bodies, std::span<Wrench> wrenches,
+                                  std::span<const CoupledParticles> systems) const {
+    (void)bodies, (void)wrenches, (void)systems;
+  }
+  /// Potential energy of particles under this law [J]; of a coupled law: with the bodies it ties them to.
+  [[nodiscard]] virtual double particle_energy(const ParticlesAt& at) const {
+    (void)at;
+    return 0;
+  }
+  [[nodiscard]] virtual double coupled_energy(const BodiesAt& bodies,
+                                              std::span<const CoupledParticles> systems) const {
+    (void)bodies, (void)systems;
+    return 0;
   }
 };
 

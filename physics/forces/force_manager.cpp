@@ -62,4 +62,35 @@ bool ForceManager::depends_on_velocity() const {
                      [](const Entry& entry) { return entry.law->depends_on_velocity(); });
 }
 
+ParticleAction ForceManager::action_on(ParticleSystemId system) const {
+  ParticleAction strongest = ParticleAction::None;
+  for (const Entry& entry : laws_) strongest = std::max(strongest, entry.law->acts_on(system));
+  return strongest;
+}
+
+void ForceManager::gather(const ParticlesAt& at, const ParticleForces& forces) const {
+  for (const Entry& entry : laws_) {
+    if (entry.law->acts_on(at.system) == ParticleAction::Each) entry.law->add_particle_forces(at, forces);
+  }
+}
+
+double ForceManager::particle_energy(const ParticlesAt& at) const {
+  double sum = 0;
+  for (const Entry& entry : laws_) {
+    if (entry.law->acts_on(at.system) == ParticleAction::Each) sum += entry.law->particle_energy(at);
+  }
+  return sum;
+}
+
+void ForceManager::gather(const BodiesAt& bodies, std::span<Wrench> wrenches,
+                          std::span<const CoupledParticles> systems) const {
+  for (const Entry& entry : laws_) entry.law->add_coupled_forces(bodies, wrenches, systems);
+}
+
+double ForceManager::coupled_energy(const BodiesAt& bodies, std::span<const CoupledParticles> systems) const {
+  double sum = 0;
+  for (const Entry& entry : laws_) sum += entry.law->coupled_energy(bodies, systems);
+  return sum;
+}
+
 }  // namespace pantin

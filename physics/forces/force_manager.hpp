@@ -12,8 +12,8 @@ namespace pantin {
 
 class ForceManager {
  public:
-  /// Adds a law from its settings, e.g. add(Gravity{.g_W = {0, 0, -9.81}}). Settings with a problem_with break the
-  /// contract.
+  /// Adds a law from its settings, e.g. add(Gravity{.g_W = {0, 0, -9.81}}). Settings with a problem_with
+  /// break the contract.
   template <class Settings>
   ForceId add(const Settings& settings) {
     check(problem_with(settings));
@@ -21,7 +21,7 @@ class ForceManager {
   }
   /// Adds a law of any kind, the user's own included. Not null.
   ForceId add_law(std::unique_ptr<ForceLaw> law);
-  void remove(ForceId id);                             ///< must be alive
+  void remove(ForceId id);  ///< must be alive
   /// Removes the laws that name this body; returns how many.
   std::size_t remove_laws_of(BodyId body);
   [[nodiscard]] bool contains(ForceId id) const noexcept;
@@ -31,6 +31,18 @@ class ForceManager {
   void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
   [[nodiscard]] double potential_energy(const BodiesAt& at) const;
   [[nodiscard]] bool depends_on_velocity() const;
+
+  // Particles
+  /// The strongest action of any law on a system: Coupled before Each before None.
+  [[nodiscard]] ParticleAction action_on(ParticleSystemId system) const;
+  /// Adds the forces of all laws that act on each particle by itself.
+  void gather(const ParticlesAt& at, const ParticleForces& forces) const;
+  [[nodiscard]] double particle_energy(const ParticlesAt& at) const;
+  /// Adds the forces of all laws that couple particles.
+  void gather(const BodiesAt& bodies, std::span<Wrench> wrenches,
+              std::span<const CoupledParticles> systems) const;
+  [[nodiscard]] double coupled_energy(const BodiesAt& bodies,
+                                      std::span<const CoupledParticles> systems) const;
 
  private:
   struct Entry {

@@ -26,6 +26,28 @@ class GravityLaw final : public ForceLaw {
     return energy;
   }
 
+  ParticleAction acts_on(ParticleSystemId) const override { return ParticleAction::Each; }
+
+  void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {
+    const double gx = g_W_.x(), gy = g_W_.y(), gz = g_W_.z();
+    const double* mass = at.mass.data();
+    double *fx = forces.x.data(), *fy = forces.y.data(), *fz = forces.z.data();
+    for (std::size_t i = 0, n = at.size(); i < n; ++i) {
+      fx[i] += mass[i] * gx;
+      fy[i] += mass[i] * gy;
+      fz[i] += mass[i] * gz;
+    }
+  }
+
+  double particle_energy(const ParticlesAt& at) const override {
+    const double gx = g_W_.x(), gy = g_W_.y(), gz = g_W_.z();
+    double energy = 0;
+    for (std::size_t i = 0, n = at.size(); i < n; ++i) {
+      energy -= at.mass[i] * (gx * at.x[i] + gy * at.y[i] + gz * at.z[i]);
+    }
+    return energy;
+  }
+
  private:
   Vector3 g_W_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform gravity on all simulated bodies: F = m g at the centre of gravity.
+// Uniform gravity on all simulated bodies and all particles: F = m g at the centre of gravity.
 #include <memory>
 #include <optional>
 

@@ -10,6 +10,7 @@ class LinearDragLaw final : public ForceLaw {
   explicit LinearDragLaw(const LinearDrag& settings) : settings_{settings} {}
 
   void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const override {
+    if (settings_.particles) return;
     if (settings_.body) {
       const std::size_t i = at.index(settings_.body);
       add_drag(settings_, 1, at.kinematics.data() + i, wrenches.data() + i);
@@ -20,6 +21,19 @@ class LinearDragLaw final : public ForceLaw {
 
   bool depends_on_velocity() const override {
     return settings_.coefficient != 0 || settings_.angular_coefficient != 0;
+  }
+
+  ParticleAction acts_on(ParticleSystemId system) const override {
+    const bool acts = settings_.particles ? settings_.particles == system : !settings_.body;
+    return acts ? ParticleAction::Each : ParticleAction::None;
+  }
+
+  void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {
+    const double c = settings_.coefficient;
+    const Vector3 u = settings_.medium_velocity;
+    add_drag(c, u.x(), at.vx, forces.x.data());
+    add_drag(c, u.y(), at.vy, forces.y.data());
+    add_drag(c, u.z(), at.vz, forces.z.data());
   }
 
   bool names(BodyId body) const override { return body && body == settings_.body; }
@@ -33,12 +47,22 @@ class LinearDragLaw final : public ForceLaw {
     }
   }
 
+  static void add_drag(double c, double u, std::span<const double> velocity, double* force) {
+    const double* v = velocity.data();
+    for (std::size_t i = 0, n = velocity.size(); i < n; ++i) force[i] -= c * (v[i] - u);
+  }
+
   LinearDrag settings_;
 };
 
 }  // namespace
 
 std::optional<SettingsProblem> problem_with(const LinearDrag& settings) {
+  if (settings.body && settings.particles) {
+    return SettingsProblem{ProblemCode::OutOfRange,
+                           "linear drag: both a body and a particle system are named",
+                           "name one of them, or add two laws"};
+  }
   return first_problem({must_not_be_negative({"linear drag", "coefficient", "N s/m"}, settings.coefficient),
                         must_not_be_negative({"linear drag", "angular coefficient", "N m s/rad"},
                                              settings.angular_coefficient),

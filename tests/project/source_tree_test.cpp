@@ -46,6 +46,8 @@ TEST(SourceTree, BreaksTheRuleOfEachLayer) {
   EXPECT_TRUE(broken_rule("physics/x.cpp", {"nlohmann/json.hpp"}));
   EXPECT_TRUE(broken_rule("physics/x.cpp", {"unistd.h"}));
   EXPECT_TRUE(broken_rule("physics/x.cpp", {"fcl/fcl.h"}));
+  EXPECT_TRUE(broken_rule("physics/collision/fcl_index.hpp", {"fcl/fcl.h"}));
+  EXPECT_FALSE(broken_rule("physics/collision/fcl_index.cpp", {"fcl/fcl.h"}));
   EXPECT_TRUE(broken_rule("bridge/bridge.cpp", {"fcl/fcl.h"}));
   EXPECT_TRUE(broken_rule("bridge/loaders/x.hpp", {"tinyxml2.h"}));
   EXPECT_TRUE(broken_rule("bridge/bridge.cpp", {"assimp/scene.h"}));
