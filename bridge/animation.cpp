@@ -200,7 +200,7 @@ void Bridge::Impl::set_link_value(NodeId id, const LinkValue& value) {
   if (binding == nullptr || binding->drive == Drive::Scene) {
     self->set_local(id, local_matrix(*link, value));
     scene.note_link_value(id, value);
-  } else if (binding->drive == Drive::Physics && binding->tie.kind == Tie::Kind::Link && value.size() > 0) {
+  } else if (binding->drive == Drive::Physics && binding->tie.kind == JointTie::Kind::Link && value.size() > 0) {
     physics.set_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value));
     sync_out(nullptr);
   } else if (value.size() > 0) {

@@ -14,7 +14,7 @@
 namespace pantin {
 
 /// What a body is tied to by its one joint upward.
-struct Tie {
+struct JointTie {
   enum class Kind {
     None,    ///< free, static, or with a trajectory in the world
     Link,    ///< a joint made from the node's link
@@ -23,7 +23,7 @@ struct Tie {
   Kind kind{Kind::None};
   BodyId to{};                     ///< null = the world
   LinkKind link{LinkKind::Fixed};  ///< of Kind::Link
-  friend bool operator==(const Tie&, const Tie&) = default;
+  friend bool operator==(const JointTie&, const JointTie&) = default;
 };
 
 struct Binding {
@@ -36,7 +36,7 @@ struct Binding {
   Binding* above{nullptr};            ///< nearest bound ancestor
   Binding* simulated_above{nullptr};  ///< nearest simulated one
 
-  Tie tie{};
+  JointTie tie{};
   std::array<double, 3> metres_per_value{1, 1, 1};  ///< by number of the link's value (links_to_joints.hpp)
 
   MassProperties own_mass{0, Vector3::Zero(), Matrix3::Zero()};  ///< in B, as derived; before composites

@@ -89,7 +89,7 @@ struct Bridge::Impl {
   std::vector<NodeId> bind_carriers(std::span<Binding* const> affected);
   [[nodiscard]] Binding* idle_carrier() const;
   void drop_idle_carriers();
-  [[nodiscard]] Tie wanted_tie(const Binding& binding) const;
+  [[nodiscard]] JointTie wanted_tie(const Binding& binding) const;
   void untie(Binding& binding);
   void tie(Binding& binding, std::vector<Diagnostic>& notes);
   void tie_by_link(Binding& binding, std::vector<Diagnostic>& notes);

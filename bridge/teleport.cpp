@@ -69,7 +69,7 @@ class Bridge::Impl::Teleport {
                      "set its local matrix");
       }
       land(*binding, M_WN_ * *M_ND);
-      if (binding->tie.kind == Tie::Kind::Link)
+      if (binding->tie.kind == JointTie::Kind::Link)
         joints_in_the_way_.push_back(binding);  // its frame moves along
     }
   }
@@ -96,7 +96,7 @@ class Bridge::Impl::Teleport {
                    "keep its scale, or release the body and bind it again");
     }
     const Pose X_WB{M_WB.translation() - at.q * binding.M_BN.translation(), at.q};
-    if (binding.node == id_ && binding.tie.kind == Tie::Kind::Link) judge_joint(binding, X_WB);
+    if (binding.node == id_ && binding.tie.kind == JointTie::Kind::Link) judge_joint(binding, X_WB);
     landings_.push_back({&binding, X_WB});
   }
 

@@ -31,13 +31,13 @@ bool has_turns(LinkKind kind, const LinkValue& value) {
 
 }  // namespace
 
-Tie Bridge::Impl::wanted_tie(const Binding& binding) const {
+JointTie Bridge::Impl::wanted_tie(const Binding& binding) const {
   if (binding.drive == Drive::Scene && binding.simulated_above != nullptr) {
-    return {Tie::Kind::Driven, binding.simulated_above->body, LinkKind::Fixed};
+    return {JointTie::Kind::Driven, binding.simulated_above->body, LinkKind::Fixed};
   }
   const Link* link = scene.link(binding.node);
   if (binding.drive != Drive::Physics || link == nullptr || link->kind == LinkKind::Free) return {};
-  return {Tie::Kind::Link, binding.above == nullptr ? BodyId{} : binding.above->body, link->kind};
+  return {JointTie::Kind::Link, binding.above == nullptr ? BodyId{} : binding.above->body, link->kind};
 }
 
 void Bridge::Impl::untie(Binding& binding) {
@@ -47,19 +47,19 @@ void Bridge::Impl::untie(Binding& binding) {
 }
 
 void Bridge::Impl::tie(Binding& binding, std::vector<Diagnostic>& notes) {
-  const Tie wanted = wanted_tie(binding);
-  if (wanted.kind == Tie::Kind::None) return;
+  const JointTie wanted = wanted_tie(binding);
+  if (wanted.kind == JointTie::Kind::None) return;
   if (physics.closes_loop(wanted.to, binding.body)) {
     const Link* link = scene.link(binding.node);
     const std::string joint =
-        wanted.kind == Tie::Kind::Driven ? "driven joint" : "joint '" + link->name + "'";
+        wanted.kind == JointTie::Kind::Driven ? "driven joint" : "joint '" + link->name + "'";
     notes.push_back(note(Severity::Error, binding.node,
                          "its " + joint + " closes a loop of joints, which this version cannot solve",
                          "remove one joint of the loop"));
     return;
   }
   binding.tie = wanted;
-  if (wanted.kind == Tie::Kind::Link) return tie_by_link(binding, notes);
+  if (wanted.kind == JointTie::Kind::Link) return tie_by_link(binding, notes);
   binding.joint = physics.add(DrivenSettings{.name = scene.name(binding.node),
                                              .a = wanted.to,
                                              .b = binding.body,
@@ -108,7 +108,7 @@ void Bridge::Impl::note_link_value(const Binding& binding) {
   if (link == nullptr) return;
   if (link->kind == LinkKind::Free) {
     scene.note_link_value(binding.node, fit_link(*link, scene.local(binding.node), link->value).value);
-  } else if (binding.tie.kind == Tie::Kind::Link && value_size(link->kind) > 0 &&
+  } else if (binding.tie.kind == JointTie::Kind::Link && value_size(link->kind) > 0 &&
              physics.contains(binding.joint)) {
     scene.note_link_value(
         binding.node, link_value(physics.joint_value(binding.joint), binding.metres_per_value, link->value));

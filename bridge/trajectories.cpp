@@ -157,7 +157,7 @@ void Bridge::Impl::start_moves(double begin, double end) {
 void Bridge::Impl::announce(Binding& binding) {
   if (physics.body(binding.body).kind() == BodyKind::Animated) {
     physics.make_animated(binding.body, std::make_unique<NodeDriver>(*binding.motion));
-  } else if (binding.tie.kind == Tie::Kind::Driven) {
+  } else if (binding.tie.kind == JointTie::Kind::Driven) {
     const RigidBody body = physics.body(binding.body);
     const Vector3 v_WBcm = body.v_WBcm(), w_WB = body.w_WB();
     physics.set_velocity(binding.body, v_WBcm, w_WB);

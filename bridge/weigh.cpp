@@ -47,8 +47,8 @@ void Bridge::Impl::set_mass(Binding& binding, const MassProperties& mass) {
 Binding& Bridge::Impl::composite_top(Binding& binding) const {
   Binding* top = &binding;
   while (top->drive == Drive::Physics && top->above != nullptr && top->above->drive == Drive::Physics) {
-    const Tie tie = wanted_tie(*top);
-    if (tie.kind != Tie::Kind::Link || tie.link != LinkKind::Fixed) break;
+    const JointTie tie = wanted_tie(*top);
+    if (tie.kind != JointTie::Kind::Link || tie.link != LinkKind::Fixed) break;
     top = top->above;
   }
   return *top;
@@ -88,9 +88,9 @@ void Bridge::Impl::assign_composite(Binding& top, std::vector<Diagnostic>& notes
     for (Binding* member : members) set_mass(*member, member->own_mass);
     return;
   }
-  const Tie tie = wanted_tie(top);
+  const JointTie tie = wanted_tie(top);
   const bool moves =
-      top.drive == Drive::Physics && !(tie.kind == Tie::Kind::Link && tie.link == LinkKind::Fixed);
+      top.drive == Drive::Physics && !(tie.kind == JointTie::Kind::Link && tie.link == LinkKind::Fixed);
   const MassProperties whole = combined(parts);
   const std::optional<SettingsProblem> problem = problem_with(whole, InertiaCheck::Solvable);
   if (problem && moves) {

@@ -37,6 +37,9 @@ struct RigidMotion {
   Vector3 alpha_AB{Vector3::Zero()};  ///< angular acceleration [rad/s^2]
 };
 
+/// The motion of A in B from that of B in A.
+[[nodiscard]] RigidMotion inverse(const RigidMotion& of_B_in_A);
+
 /// A force and the torque about a stated point, in W.
 struct Wrench {
   Vector3 force{Vector3::Zero()};   ///< [N]

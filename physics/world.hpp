@@ -25,7 +25,6 @@ struct PhysicsManager::Impl {
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
-  State before{};       ///< of a step that is cut into parts, to go back to
   State before{};       ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).

@@ -22,21 +22,6 @@ Mat3<double> mat(const Quaternion& q) {
   return kernel::rotation_of(c);
 }
 
-/// The motion of A in B from that of B in A.
-RigidMotion reversed(const RigidMotion& m) {
-  const Quaternion q_BA = m.X_AB.q.conjugate();
-  const Vector3 w = q_BA * m.w_AB, v = q_BA * m.v_AB, a = q_BA * m.a_AB, alpha = q_BA * m.alpha_AB;
-  RigidMotion out;
-  out.X_AB = inverse(m.X_AB);
-  const Vector3& p = out.X_AB.p;  // A's origin in B
-  // p = -R^T p_AB: p' = -w x p - v, and so on, in axes of B.
-  out.v_AB = -v - w.cross(p);
-  out.w_AB = -w;
-  out.a_AB = -a - alpha.cross(p) - w.cross(w.cross(p)) - 2 * w.cross(out.v_AB);
-  out.alpha_AB = -alpha;
-  return out;
-}
-
 }  // namespace
 
 void Articulated::resize(const TreeLayout& layout) {
@@ -70,7 +55,7 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
     Vec p_rel, w_rel, v_rel, al_rel, a_rel;
     if (link.driver != nullptr) {
       RigidMotion motion = link.driver->motion(at.t, at.side);
-      if (link.reversed) motion = reversed(motion);
+      if (link.reversed) motion = inverse(motion);
       R_rel = mat(motion.X_AB.q), p_rel = vec(motion.X_AB.p);
       w_rel = R_J * vec(motion.w_AB), v_rel = R_J * vec(motion.v_AB);
       al_rel = R_J * vec(motion.alpha_AB), a_rel = R_J * vec(motion.a_AB);
