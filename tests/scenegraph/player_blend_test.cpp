@@ -105,7 +105,8 @@ TEST(Blend, HasExactDerivatives) {
 TEST(Blend, OfLinkValuesHasExactDerivatives) {
   // A ball's quaternions are blended on the sphere, numbers of other links as numbers.
   std::mt19937_64 random{82};
-  for (const LinkKind kind : {LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Free})
+  for (const LinkKind kind : {LinkKind::Pivot, LinkKind::Slider, LinkKind::Ball, LinkKind::Cylindrical,
+                              LinkKind::Universal, LinkKind::Planar, LinkKind::Screw, LinkKind::Free})
     for (int k = 0; k < 10; ++k) {
       OneNode it;
       Link link{.kind = kind};
@@ -114,7 +115,7 @@ TEST(Blend, OfLinkValuesHasExactDerivatives) {
       it.scene.set_link(it.node, link);
       const int width = value_size(kind);
       const auto link_clip = [&] {
-        return clip({test::random_cubic(Channel::LinkValue, width, width > 1, random)}, 1);
+        return clip({test::random_cubic(Channel::LinkValue, width, width > 3, random)}, 1);
       };
       it.play(link_clip(), {.weight = fade({.begin = 0, .duration = 1, .from = 1, .to = 0.2})});
       it.play(link_clip(), {.weight = fade({.begin = 0, .duration = 1})});
