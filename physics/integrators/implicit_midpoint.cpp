@@ -14,8 +14,9 @@
 namespace pantin {
 namespace {
 
-constexpr double kSolved = 2e-16;   // change of the last pass, of the numbers' size
-constexpr double kContracts = 0.3;  // a pass that leaves more than this of the change before is too slow
+constexpr double kSolved = 2e-16;    // change of the last pass, of the numbers' size
+constexpr double kContracts = 0.3;   // a pass that leaves more than this of the change before is too slow
+constexpr double kLeastSize = 1e-9;  // of coordinates [m], [rad]: below it all is at zero
 constexpr int kMostPasses = 60;
 
 class ImplicitMidpoint final : public Integrator, SlopeFunction {
@@ -53,6 +54,7 @@ class ImplicitMidpoint final : public Integrator, SlopeFunction {
   bool solve(double s) {
     std::copy(y_.begin(), y_.end(), z_.begin());
     evaluate(z_, slope_);
+    std::fill(scale_.begin(), scale_.end(), 0.0);
     measure(s);
     double before = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -66,24 +68,27 @@ class ImplicitMidpoint final : public Integrator, SlopeFunction {
       if (!(change <= kContracts * before)) break;
       before = change;
       evaluate(z_, slope_);
+      if (pass == 0) measure(s);  // what rates were not at the start they are now
     }
     std::copy(y_.begin(), y_.end(), z_.begin());
     return newton_.solve(*this, s, y_, scale_, z_);
   }
 
   /// One size for all coordinates and one for all velocities: round-off of the greatest is no error of the
-  /// small ones.
+  /// small ones. Never less than what was measured before.
   void measure(double s) {
-    const auto fill = [&](std::size_t from, std::size_t to) {
-      double size = 0;
-      for (std::size_t i = from; i < to; ++i)
-        size = std::max(size, std::abs(y_[i]) + std::abs(s * slope_[i]));
-      if (!(size > 0) || !std::isfinite(size)) size = 1;
+    const auto fill = [&](std::size_t from, std::size_t to, double least) {
+      double size = std::max(scale_[from], least);
+      for (std::size_t i = from; i < to; ++i) {
+        const double reach = std::abs(y_[i]) + std::abs(s * slope_[i]);
+        if (reach > size && std::isfinite(reach)) size = reach;
+      }
+      if (!(size > 0)) size = 1;
       std::fill(scale_.begin() + static_cast<std::ptrdiff_t>(from),
                 scale_.begin() + static_cast<std::ptrdiff_t>(to), size);
     };
-    fill(0, coordinates_);
-    fill(coordinates_, y_.size());
+    if (coordinates_ > 0) fill(0, coordinates_, kLeastSize);
+    if (coordinates_ < y_.size()) fill(coordinates_, y_.size(), 0);
   }
 
   Dynamics* dynamics_{nullptr};

@@ -1,7 +1,7 @@
 #pragma once
-// Private to the integrators. Solves z = y + s f(z) for stiff f without its derivative: Newton's method, its
-// linear systems solved by GMRES with directional differences (D. A. Knoll, D. E. Keyes, J. Comp. Phys. 193,
-// 357 (2004), 2.2).
+// Private to the integrators. Solves z = y + s f(z) for stiff f without its derivative: Newton's method with
+// directional differences, its linear systems solved whole where there are few numbers, by GMRES where there
+// are many (D. A. Knoll, D. E. Keyes, J. Comp. Phys. 193, 357 (2004), 2.2).
 #include <span>
 #include <vector>
 
@@ -29,6 +29,9 @@ class NewtonKrylov {
                   std::span<const double> z);
   /// The step in units of scale that takes the residual away to first order, into step_.
   void newton_direction(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
+  /// The same by the whole matrix 1 - s f', for few numbers: rows may then differ in size as much as they
+  /// like.
+  void dense_direction(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
   /// column[k + 1] = (1 - s f') column[k].
   void apply(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z,
              std::size_t k);
@@ -37,6 +40,7 @@ class NewtonKrylov {
 
   std::size_t n_{0}, most_columns_{0};
   std::vector<double> slope_{}, residual_{}, trial_{}, trial_slope_{}, step_{}, basis_{};
+  std::vector<double> matrix_{};  ///< by rows, the right-hand side last
   std::vector<double> hessenberg_{}, cosine_{}, sine_{}, right_{};
 };
 
