@@ -48,6 +48,8 @@ LinkKind kind_of(JointType type) {
       return LinkKind::Pivot;
     case JointType::Prismatic:
       return LinkKind::Slider;
+    case JointType::Planar:
+      return LinkKind::Planar;
     case JointType::Floating:
       return LinkKind::Free;
     default:
@@ -55,12 +57,19 @@ LinkKind kind_of(JointType type) {
   }
 }
 
+/// URDF names only the plane's normal. Its first direction is the image of x under the least turn of z to the
+/// normal.
+Vector3 first_across(const Vector3& normal) {
+  return (Quaternion::FromTwoVectors(Vector3::UnitZ(), normal) * Vector3::UnitX()).normalized();
+}
+
 Link link_of(const urdf::Joint& joint, JointType type) {
   Link link{.kind = kind_of(type),
             .name = joint.name,
             .M_PJ = affine_of(pose_of(joint.parent_to_joint_origin_transform)),
             .value = zero_value(kind_of(type))};
-  if (has_value(type)) link.axis = vector_of(joint.axis).normalized();
+  if (has_axis(type)) link.axis = vector_of(joint.axis).normalized();
+  if (type == JointType::Planar) link.axis2 = first_across(link.axis);
   if (has_value(type) && type != JointType::Continuous && joint.limits) {
     link.limits[0] = {joint.limits->lower, joint.limits->upper};
   }

@@ -12,6 +12,8 @@ bool has_value(JointType type) noexcept {
   return type == JointType::Revolute || type == JointType::Continuous || type == JointType::Prismatic;
 }
 
+bool has_axis(JointType type) noexcept { return has_value(type) || type == JointType::Planar; }
+
 void check_origin(tinyxml2::XMLElement& element, const std::string& subject, Ledger& ledger) {
   tinyxml2::XMLElement* origin = element.FirstChildElement("origin");
   if (origin == nullptr) return;

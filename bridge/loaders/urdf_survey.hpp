@@ -56,6 +56,8 @@ struct Survey {
 
 /// Whether the joint has one axis to move about or along.
 [[nodiscard]] bool has_value(JointType type) noexcept;
+/// The same, or a plane that an axis stands on.
+[[nodiscard]] bool has_axis(JointType type) noexcept;
 
 /// Everything below in turn. The tree is built only where the ledger is free of errors.
 [[nodiscard]] Survey survey(tinyxml2::XMLElement& robot, Ledger& ledger);

@@ -52,13 +52,11 @@ void read_type(const Context& c) {
     if (type != nullptr && name == type) c.entry.type = known;
   }
   if (type == nullptr) {
-    c.error(c.entry.line, "has no type", "write type=\"revolute\", continuous, prismatic, fixed or floating");
+    c.error(c.entry.line, "has no type",
+            "write type=\"revolute\", continuous, prismatic, fixed, floating or planar");
   } else if (c.entry.type == JointType::Unknown) {
     c.error(c.entry.line, std::string{"type '"} + type + "' is not known to URDF",
-            "use revolute, continuous, prismatic, fixed or floating");
-  } else if (c.entry.type == JointType::Planar) {
-    c.error(c.entry.line, "type 'planar' cannot be represented yet",
-            "use two prismatic joints and a continuous one with massless links between");
+            "use revolute, continuous, prismatic, fixed, floating or planar");
   }
 }
 
@@ -87,7 +85,7 @@ void drop_meaningless(const Context& c, XMLElement& element) {
 void read_axis(const Context& c) {
   XMLElement* axis = c.joint.FirstChildElement("axis");
   if (axis == nullptr || !has_attribute(*axis, "xyz")) {
-    if (has_value(c.entry.type)) {
+    if (has_axis(c.entry.type)) {
       c.alike(Severity::Note, "default axis", axis != nullptr ? axis->GetLineNum() : c.entry.line,
               "has no axis: 1 0 0 is used, as URDF says", "");
     }
@@ -96,7 +94,7 @@ void read_axis(const Context& c) {
   }
   std::array<double, 3> xyz{};
   const bool readable = read_numbers(*axis, "xyz", xyz, c.subject, c.ledger);
-  if (!has_value(c.entry.type)) return drop_meaningless(c, *axis);
+  if (!has_axis(c.entry.type)) return drop_meaningless(c, *axis);
   if (!readable) return;
   const double length = std::hypot(xyz[0], xyz[1], xyz[2]);
   // Components of 1e300 have an infinite length, of 1e-320 one without precision: no robot means either.
@@ -179,7 +177,7 @@ void read_dynamics(const Context& c) {
     }
     any = any || has_attribute(*dynamics, name);
   }
-  if (!has_value(c.entry.type)) return drop_meaningless(c, *dynamics);
+  if (!has_axis(c.entry.type)) return drop_meaningless(c, *dynamics);
   if (!any) c.joint.DeleteChild(dynamics);  // urdfdom refuses an empty one
 }
 
@@ -227,7 +225,7 @@ JointEntry survey_joint(XMLElement& joint, Ledger& ledger) {
   entry.parent = read_end(c, "parent");
   entry.child = read_end(c, "child");
   check_origin(joint, c.subject, ledger);
-  if (entry.type == JointType::Unknown || entry.type == JointType::Planar) return entry;  // refused already
+  if (entry.type == JointType::Unknown) return entry;  // refused already
   read_axis(c);
   read_limit(c);
   read_dynamics(c);

@@ -1,7 +1,7 @@
 #pragma once
 // The peer of pantin_bench_animation: sampling in the manner of ozz-animation, written anew from its
-// published description (guillaumeblanc.github.io/ozz-animation, "Animation runtime"), because no registry of
-// this machine carries it. What is kept of it:
+// published description (guillaumeblanc.github.io/ozz-animation, "Animation runtime"), not its sources. What
+// is kept of it:
 //   - the keys of all tracks of a channel in one array, sorted by the time at which a sampler going forwards
 //   needs
 //     them, so that it walks the array from one end to the other;

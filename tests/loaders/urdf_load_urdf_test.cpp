@@ -147,6 +147,25 @@ TEST_F(LoadUrdf, CountsAlikeFindings) {
   EXPECT_EQ(loaded.notes[4].problem, "mass and inertia are 0; kept as read (and 2 more alike)");
 }
 
+TEST_F(LoadUrdf, ReadsAPlanarJoint) {
+  // The axis is the plane's normal; the two directions of the plane are at right angles to it, and damping is
+  // kept. A plane has no one range, so <limit> means nothing, as for a floating joint.
+  const Loaded<Model> loaded = load(
+      "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"planar\">"
+      "<parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0.6 0.8\"/><dynamics damping=\"0.5\"/>"
+      "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint></robot>");
+  ASSERT_TRUE(loaded.value.has_value());
+  const Link& link = *loaded.value->nodes[1].link;
+  EXPECT_EQ(link.kind, LinkKind::Planar);
+  EXPECT_LT((link.axis - Vector3{0, 0.6, 0.8}).norm(), 1e-15);
+  EXPECT_LT(std::abs(link.axis.dot(link.axis2)), 1e-15);
+  EXPECT_EQ(link.limits[0], LinkLimits{});
+  EXPECT_EQ(loaded.value->nodes[1].dynamics->damping, 0.5);
+  EXPECT_TRUE(std::any_of(loaded.notes.begin(), loaded.notes.end(), [](const Diagnostic& note) {
+    return note.problem.find("<limit> of a planar joint means nothing") != std::string::npos;
+  }));
+}
+
 TEST_F(LoadUrdf, KeepsNamesOfAnyCharacters) {
   // Entities and UTF-8 survive the way through both XML parsers: the names are those that XML defines.
   const Loaded<Model> loaded = load(
