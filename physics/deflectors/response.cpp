@@ -34,6 +34,17 @@ struct Site {
   Vector3 a_surface{Vector3::Zero()};
 };
 
+Site site_of(const ParticlePath& path, const SurfaceContact& contact, const DeflectorMotion& motion) {
+  Site site;
+  site.n = motion.rotation(contact.s) * contact.normal_D;
+  site.p = path.at(contact.s) + contact.depth * site.n;
+  // A particle does not spin: what it gets acts at its centre, and so does the reaction.
+  site.r = site.p - motion.centre(contact.s);
+  site.left = (1 - contact.s) * path.h;
+  site.a_surface = motion.centre_curvature() / (motion.duration() * motion.duration());
+  return site;
+}
+
 /// The way of a particle that stays on the surface: `v` is its velocity against it, along it.
 void slide(MovingParticle& particle, const Site& site, const Vector3& v_surface, const Vector3& v,
            const Vector3& a, double friction) {
@@ -51,10 +62,8 @@ void slide(MovingParticle& particle, const Site& site, const Vector3& v_surface,
     const double stops_after = net > 0 ? std::min(T, speed / net) : T;
     way = 0.5 * stops_after * v;
   }
-  const double h = particle.path.h;
   particle.path.v = v_surface + (T > 0 ? Vector3{way / T} : Vector3::Zero());
   particle.path.a = site.a_surface;
-  particle.path.h = h;
   particle.v_end = v_surface + T * site.a_surface + end;
   particle.ends_otherwise = true;
 }
@@ -68,13 +77,7 @@ Response respond(MovingParticle& particle, const SurfaceContact& contact, const 
   ParticlePath& path = particle.path;
   const double h = path.h, s = contact.s;
   const Vector3 v = path.velocity(s);
-  Site site;
-  site.n = motion.rotation(s) * contact.normal_D;
-  site.p = path.at(s) + contact.depth * site.n;
-  site.left = (1 - s) * h;
-  site.a_surface = motion.centre_curvature() / (motion.duration() * motion.duration());
-  // A particle does not spin: what it gets acts at its centre, and so does the reaction.
-  site.r = site.p - motion.centre(s);
+  const Site site = site_of(path, contact, motion);
   const StruckBody* body = deflectors.struck(deflector);
   const auto surface_velocity = [&] {
     Vector3 u = motion.velocity(site.p, s);
