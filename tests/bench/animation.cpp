@@ -3,8 +3,6 @@
 // in the manner of ozz-animation (animation_peer.hpp). Interleaved in one run, minimum of several repeats,
 // ratios. Pantin: double precision, slerp, local matrices written into the scene. Peer: single precision (and
 // double), nlerp, local matrices written into an array.
-#include <time.h>
-
 #include <cstdio>
 #include <limits>
 #include <random>
@@ -12,6 +10,7 @@
 #include <pantin/scenegraph/player.hpp>
 
 #include "animation_peer.hpp"
+#include "bench/cpu_time.hpp"
 
 namespace pantin::bench {
 namespace {
@@ -20,11 +19,7 @@ constexpr std::size_t kCharacters = 1000, kNodes = 60;
 constexpr double kFrame = 1.0 / 60, kDuration = 2;
 constexpr int kRepeats = 40;
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+using bench::cpu_seconds;
 
 /// The least time of several.
 class Least {

@@ -1,29 +1,18 @@
 // What bodies cost: 10,000 free bodies under gravity by RK4 beside a hand-written loop of the same
 // arithmetic, and chains of pivots by the articulated elimination. Interleaved in one run, minimum of several
 // repeats, ratios.
-#include <time.h>
-
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <vector>
 
+#include "bench/cpu_time.hpp"
 #include "support/mechanisms.hpp"
 
 namespace pantin {
 namespace {
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double seconds_of(const std::function<void()>& work) {
-  const double start = cpu_seconds();
-  work();
-  return cpu_seconds() - start;
-}
+using bench::seconds_of;
 
 constexpr int kBodies = 10000;
 constexpr double kStep = 1e-3;

@@ -1,7 +1,5 @@
 // What particles cost: 1,000,000 of them under gravity and drag past ten planes and spheres, beside a loop
 // written by hand for just that. Interleaved in one run, minimum of several repeats, ratios.
-#include <time.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -16,20 +14,12 @@
 #include <pantin/physics/particles/emitter.hpp>
 #include <pantin/physics/physics_manager.hpp>
 
+#include "bench/cpu_time.hpp"
+
 namespace pantin {
 namespace {
 
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double seconds_of(const std::function<void()>& work) {
-  const double start = cpu_seconds();
-  work();
-  return cpu_seconds() - start;
-}
+using bench::seconds_of;
 
 constexpr std::size_t kParticles = 1000000;
 constexpr double kStep = 1.0 / 240, kMass = 1e-3, kDrag = 1e-3, kBounce = 0.6, kG = 9.81, kHalf = 5;
@@ -116,7 +106,7 @@ DeflectorMount facing(const Plane& wall) {
 }
 
 template <bool kVerlet>
-void bench(const char* integrator) {
+void compare(const char* integrator) {
   PhysicsManager physics;
   physics.set_integrator(make_integrator(integrator));
   physics.forces().add(Gravity{});
@@ -171,6 +161,6 @@ void bench(const char* integrator) {
 }  // namespace pantin
 
 int main() {
-  pantin::bench<false>("semi-implicit-euler");
-  pantin::bench<true>("verlet");
+  pantin::compare<false>("semi-implicit-euler");
+  pantin::compare<true>("verlet");
 }

@@ -1,8 +1,6 @@
 #pragma once
 // Contenders take turns at the same work, and the least time of each counts: what else the machine does
 // lengthens times, it never shortens them.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -10,14 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace pantin::bench {
+#include "bench/cpu_time.hpp"
 
-/// Processor time of this thread [s].
-inline double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+namespace pantin::bench {
 
 struct Contender {
   std::string name{};

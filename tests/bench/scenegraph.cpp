@@ -8,7 +8,7 @@
 
 #include <pantin/scenegraph/scene.hpp>
 
-#include "race.hpp"
+#include "bench/race.hpp"
 #include "scenegraph_registry.hpp"
 #ifdef PANTIN_BENCH_OSG
 #include "peers/scenegraph_osg.hpp"
