@@ -138,7 +138,7 @@ class Reader {
   }
   void copy(void* to, std::size_t bytes) {
     if (bytes > rest_.size()) throw Damage{"it ends too early"};
-    std::memcpy(to, rest_.data(), bytes);
+    if (bytes > 0) std::memcpy(to, rest_.data(), bytes);  // nothing has no place either
     rest_.remove_prefix(bytes);
   }
   [[nodiscard]] std::size_t left() const { return rest_.size(); }
