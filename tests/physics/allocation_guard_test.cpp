@@ -81,6 +81,9 @@ void* counted(std::size_t size, std::align_val_t alignment) {
 
 }  // namespace
 
+// Where g++ takes only one of a pair into a caller, it does not see that the other is ours too.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+
 // The nothrow forms of the standard library call these; those of a sanitizer do not, so they stand here too.
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
