@@ -180,7 +180,7 @@ void WorldDynamics::derivative(Instant at, std::span<const double> q, std::span<
   tree_rates(q, v, q_dot);
 }
 
-void WorldDynamics::normalise(std::span<double> q_all) const {
+void WorldDynamics::settle(Instant, std::span<double> q_all, std::span<double>) {
   double* q = q_all.data();
   for (const std::uint32_t i : free_bodies()) {
     // A body that did not turn keeps its bits.

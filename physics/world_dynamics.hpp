@@ -51,7 +51,7 @@ class WorldDynamics final : public Dynamics {
                     std::span<double> v_dot) override;
   void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                   std::span<double> v_dot) override;
-  void normalise(std::span<double> q) const override;
+  void settle(Instant at, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
                       std::span<const double> v_error, double h) override;

@@ -86,7 +86,7 @@ class DormandPrince final : public Integrator {
       done = last ? h : done + part;
     }
     control_.next = next;
-    dynamics.normalise(q);
+    dynamics.settle({t + h, Side::Before}, q, v);
   }
 
  private:

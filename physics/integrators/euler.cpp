@@ -19,7 +19,7 @@ class Euler final : public Integrator {
     dynamics.derivative({t, Side::After}, q, v, q_dot, v_dot);
     add_scaled(q, h, q_dot);
     add_scaled(v, h, v_dot);
-    dynamics.normalise(q);
+    dynamics.settle({t + h, Side::Before}, q, v);
   }
 
  private:

@@ -42,7 +42,7 @@ class ImplicitMidpoint final : public Integrator, SlopeFunction {
       const std::size_t k = coordinates_ + i;
       v[i] = z_[k] == y_[k] ? v[i] : 2 * z_[k] - y_[k];
     }
-    dynamics.normalise(q);
+    dynamics.settle({t + h, Side::Before}, q, v);
   }
 
  private:

@@ -39,8 +39,9 @@ class Dynamics {
     rate(at, q, v, q_dot);
     acceleration(at, q, v, v_dot);
   }
-  /// Brings q back to the manifold (unit quaternions) without changing coordinates that are on it.
-  virtual void normalise(std::span<double> q) const { (void)q; }
+  /// Brings q and v back to the manifold (unit quaternions, constraints that only the dynamics sees) without
+  /// changing numbers that are on it.
+  virtual void settle(Instant at, std::span<double> q, std::span<double> v) { (void)at, (void)q, (void)v; }
   /// How far bodies are off where q' is wrong by `q_error` and v' by `v_error` over a step of h from (q, v),
   /// per unit time: the greatest distance [m/s] or angle [rad/s], an error of velocity counting h times.
   /// Unless told otherwise, every number counts as a metre.
@@ -70,7 +71,7 @@ class Integrator {
   /// Evaluations of v' in one step; the least, where the integrator decides that itself.
   [[nodiscard]] virtual int evaluations(const Dynamics& dynamics) const = 0;
   /// From t to t + h, h > 0. The derivative is asked with Side::After at t and Side::Before at later times. q
-  /// is normalised at the end of the step only.
+  /// and v are settled at the end.
   virtual void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) = 0;
   /// Its own control of steps; null if it takes the steps it is asked for.
   [[nodiscard]] virtual StepControl* control() { return nullptr; }

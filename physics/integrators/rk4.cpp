@@ -66,7 +66,7 @@ class Rk4 final : public Integrator {
     dynamics.derivative(end, Q.stage, V.stage, Q.k, V.k);
     Q.last(h / 6);
     V.last(h / 6);
-    dynamics.normalise(q);
+    dynamics.settle({t + h, Side::Before}, q, v);
   }
 
  private:

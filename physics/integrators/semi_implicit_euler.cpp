@@ -20,7 +20,7 @@ class SemiImplicitEuler final : public Integrator {
     add_scaled(v, h, v_dot);
     dynamics.rate({t + h, Side::Before}, q, v, q_dot);  // v is the velocity at t + h by now
     add_scaled(q, h, q_dot);
-    dynamics.normalise(q);
+    dynamics.settle({t + h, Side::Before}, q, v);
   }
 
  private:

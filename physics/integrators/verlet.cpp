@@ -51,14 +51,15 @@ class Verlet final : public Integrator {
     set_sum(q_mid, q, 0.5 * h, q_dot);
     dynamics.rate(middle, q_mid, v_half, q_dot);
     add_scaled(q, h, q_dot);
-    dynamics.normalise(q);
+    dynamics.settle(end, q, v);
 
-    const bool correct = dynamics.acceleration_depends_on_velocity();
     dynamics.acceleration(end, q, v, a);
     set_sum(v, v_half, 0.5 * h, a);
-    if (!correct) return;
-    dynamics.acceleration(end, q, v, a);
-    set_sum(v, v_half, 0.5 * h, a);
+    if (dynamics.acceleration_depends_on_velocity()) {
+      dynamics.acceleration(end, q, v, a);
+      set_sum(v, v_half, 0.5 * h, a);
+    }
+    dynamics.settle(end, q, v);
   }
 
  private:

@@ -45,7 +45,9 @@ class CoupledDynamics final : public Dynamics, public WrenchSource {
                     std::span<double> v_dot) override;
   void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                   std::span<double> v_dot) override;
-  void normalise(std::span<double> q) const override { world_.normalise(q.first(world_.coordinates())); }
+  void settle(Instant at, std::span<double> q, std::span<double> v) override {
+    world_.settle(at, q.first(world_.coordinates()), v.first(world_.velocities()));
+  }
   [[nodiscard]] double motion_error(std::span<const double> q, std::span<const double> v,
                                     std::span<const double> q_error, std::span<const double> v_error,
                                     double h) override;

@@ -22,7 +22,7 @@ TEST(Euler, AsksOnceAtTheStart) {
   test::State state{{1}, {0}};
   make_euler()->step(recorder, 2, 0.5, state.q, state.v);
   EXPECT_EQ(recorder.calls,
-            (std::vector<test::Recorder::Call>{{Kind::Derivative, 2, Side::After}, {Kind::Normalise}}));
+            (std::vector<test::Recorder::Call>{{Kind::Derivative, 2, Side::After}, {Kind::Settle}}));
 }
 
 TEST(Euler, FeedsAnOscillatorByAKnownFactor) {

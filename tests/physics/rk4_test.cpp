@@ -26,7 +26,7 @@ TEST(Rk4, AsksAtStartTwiceInTheMiddleAndAtTheEnd) {
                                                                {Kind::Derivative, 2.25, Side::Before},
                                                                {Kind::Derivative, 2.25, Side::Before},
                                                                {Kind::Derivative, 2.5, Side::Before},
-                                                               {Kind::Normalise}}));
+                                                               {Kind::Settle}}));
 }
 
 TEST(Rk4, DampsAnOscillatorByItsStabilityPolynomial) {

@@ -24,7 +24,7 @@ TEST(SemiImplicitEuler, KicksAtTheStartAndMovesWithTheNewVelocity) {
   make_semi_implicit_euler()->step(recorder, 2, 0.5, state.q, state.v);
   EXPECT_EQ(recorder.calls,
             (std::vector<test::Recorder::Call>{
-                {Kind::Acceleration, 2, Side::After}, {Kind::Rate, 2.5, Side::Before}, {Kind::Normalise}}));
+                {Kind::Acceleration, 2, Side::After}, {Kind::Rate, 2.5, Side::Before}, {Kind::Settle}}));
   EXPECT_DOUBLE_EQ(state.v[0], 3 - 0.5 * 4 * 1);
   EXPECT_DOUBLE_EQ(state.q[0], 1 + 0.5 * 1);
 }

@@ -26,8 +26,9 @@ TEST(Verlet, KicksDriftsThroughTheMiddleAndKicks) {
   EXPECT_EQ(recorder.calls, (std::vector<test::Recorder::Call>{{Kind::Acceleration, 2, Side::After},
                                                                {Kind::Rate, 2, Side::After},
                                                                {Kind::Rate, 2.25, Side::Before},
-                                                               {Kind::Normalise},
-                                                               {Kind::Acceleration, 2.5, Side::Before}}));
+                                                               {Kind::Settle},
+                                                               {Kind::Acceleration, 2.5, Side::Before},
+                                                               {Kind::Settle}}));
 }
 
 TEST(Verlet, CorrectsOnceWhereForcesLookAtVelocities) {
@@ -37,7 +38,7 @@ TEST(Verlet, CorrectsOnceWhereForcesLookAtVelocities) {
   test::Recorder recorder{oscillator};
   test::State state{{1}, {0}};
   make_verlet()->step(recorder, 0, 0.5, state.q, state.v);
-  ASSERT_EQ(recorder.calls.size(), 6U);
+  ASSERT_EQ(recorder.calls.size(), 7U);
   EXPECT_EQ(recorder.calls[5], (test::Recorder::Call{Kind::Acceleration, 0.5, Side::Before}));
   // a0 = -4, v_half = -1, x1 = 1/2, v_pred = -2: a1 = -2 + 4 = 2, v1 = -1/2: a1' = -2 + 1 = -1, v1' = -1.25.
   EXPECT_DOUBLE_EQ(state.q[0], 0.5);

@@ -46,7 +46,7 @@ inline State tight_solution(Dynamics& dynamics, const State& start, double durat
       row[static_cast<std::size_t>(j)] = value;
     }
     y = row[7];
-    dynamics.normalise({y.data(), nq});
+    dynamics.settle({t + H, Side::Before}, {y.data(), nq}, {y.data() + nq, nv});
   }
   return {{y.data(), y.data() + nq}, {y.data() + nq, y.data() + nq + nv}};
 }

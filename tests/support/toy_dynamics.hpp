@@ -94,7 +94,7 @@ class ToyBody final : public Dynamics {
     Eigen::Map<Vector3>{v_dot.data()} = load.force;
     Eigen::Map<Vector3>{v_dot.data() + 3} = load.torque;
   }
-  void normalise(std::span<double> q) const override {
+  void settle(Instant, std::span<double> q, std::span<double>) override {
     Eigen::Map<Eigen::Vector4d>{q.data() + 3}.normalize();
   }
   bool acceleration_depends_on_velocity() const override { return s_.load_looks_at_velocity; }
@@ -140,7 +140,7 @@ class ToyBody final : public Dynamics {
 /// Passes everything on and writes it down.
 class Recorder final : public Dynamics {
  public:
-  enum class Kind { Rate, Acceleration, Derivative, Normalise };
+  enum class Kind { Rate, Acceleration, Derivative, Settle };
   struct Call {
     Kind kind{};
     double t{0};
@@ -166,9 +166,9 @@ class Recorder final : public Dynamics {
     calls.push_back({Kind::Derivative, at.t, at.side});
     inner_.derivative(at, q, v, q_dot, v_dot);
   }
-  void normalise(std::span<double> q) const override {
-    calls.push_back({Kind::Normalise});
-    inner_.normalise(q);
+  void settle(Instant at, std::span<double> q, std::span<double> v) override {
+    calls.push_back({Kind::Settle});
+    inner_.settle(at, q, v);
   }
   bool acceleration_depends_on_velocity() const override { return inner_.acceleration_depends_on_velocity(); }
 
