@@ -42,6 +42,21 @@ void rates_of(const Model& model, const double* q, const double* q_dot, double* 
   }
 }
 
+/// How far a unit of each number of a joint moves what lies within `reach` of it. Coordinates are
+/// quaternions, positions before quaternions, or the integrals of the rates.
+template <class Model>
+void link_weights(const Model& model, double reach, double* q_weight, double* v_weight) {
+  kernel::Vec3<double> angular[kMostRates], linear[kMostRates];
+  model.columns(kernel::Mat3<double>::identity(), angular, linear);
+  for (int j = 0; j < Model::kRates; ++j) {
+    v_weight[j] = reach * std::sqrt(dot(angular[j], angular[j])) + std::sqrt(dot(linear[j], linear[j]));
+  }
+  for (int k = 0; k < Model::kCoordinates; ++k) {
+    if constexpr (Model::kCoordinates == Model::kRates) q_weight[k] = v_weight[k];
+    else q_weight[k] = k < Model::kCoordinates - 4 ? 1 : 2 * reach;
+  }
+}
+
 }  // namespace
 
 double WorldDynamics::motion_error(std::span<const double> q, std::span<const double>,
@@ -117,6 +132,34 @@ void WorldDynamics::count_link(std::uint32_t i, double& greatest) const {
     error.count(std::sqrt(dot(of_cm, of_cm)));
   }
   greatest = error.value;
+}
+
+void WorldDynamics::weights(std::span<double> q_weight, std::span<double> v_weight) {
+  double *wq = q_weight.data(), *wv = v_weight.data();
+  for (const std::uint32_t i : free_bodies()) {
+    for (int k = 0; k < 7; ++k) wq[k] = k < 3 ? 1 : 2;
+    for (int k = 0; k < 6; ++k) wv[k] = k < 3 ? 1 / bodies_.mass[i].mass : bodies_.inverse_inertia[i].norm();
+    wq += 7, wv += 6;
+  }
+  const TreeLayout& layout = constraints_.layout();
+  // From the leaves: how far a body may be from the origin of a link.
+  reach_.assign(layout.links.size(), 0.0);
+  for (std::size_t i = layout.links.size(); i-- > 0;) {
+    const TreeLink& link = layout.links[i];
+    for (std::uint32_t m = link.members_begin; m < link.members_end; ++m) {
+      const TreeMember& member = layout.members[m];
+      reach_[i] = std::max(reach_[i], (member.X_LB * bodies_.mass[member.body].p_BBcm).norm());
+    }
+    with_model(link, [&](auto model) {
+      link_weights(model, std::max(1.0, reach_[i]), wq + link.q, wv + link.v);
+      if (link.parent < 0) return;
+      kernel::Mat3<double> R;
+      kernel::Vec3<double> p;
+      if (link.driver == nullptr) model.place(bodies_.state.coordinates.data() + link.q, R, p);
+      double& above = reach_[static_cast<std::size_t>(link.parent)];
+      above = std::max(above, reach_[i] + link.X_PJ.p.norm() + std::sqrt(dot(p, p)));
+    });
+  }
 }
 
 }  // namespace pantin

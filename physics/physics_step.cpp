@@ -116,21 +116,24 @@ bool PhysicsManager::Impl::update(double h) {
   dynamics.begin();
   const double t = bodies.state.time;
   StepControl* control = integrator->control();
-  if (control != nullptr) control->next = bodies.state.next_step;
+  if (control != nullptr) std::swap(control->memory, bodies.state.memory);
   if (Dynamics* both = particles.begin_update()) {
     integrator->step(*both, t, h, particles.coordinates_now(), particles.velocities_now());
     particles.bodies_have_moved();
   } else {
     integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
   }
-  if (dynamics.first_not_finite() >= 0) return false;
   if (control != nullptr) note_control(*control);
+  if (dynamics.first_not_finite() >= 0) {
+    bodies.state.memory = {};
+    return false;
+  }
   dynamics.write_back(t + h);
   return particles.update(t, h, *integrator);
 }
 
-void PhysicsManager::Impl::note_control(const StepControl& control) {
-  bodies.state.next_step = control.next;
+void PhysicsManager::Impl::note_control(StepControl& control) {
+  std::swap(control.memory, bodies.state.memory);
   const bool first = inner.accepted == 0;
   inner.accepted += control.accepted;
   inner.refused += control.refused;

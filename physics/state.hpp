@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/particles/particle_state.hpp>
 #include <pantin/physics/rigid_body.hpp>
 
@@ -22,7 +23,7 @@ struct State {
   std::uint64_t topology{0};    ///< which set of bodies, joints and kinds it fits
   double time{0};               ///< [s]
   double time_compensation{0};  ///< what rounding has kept back from `time` [s]
-  double next_step{0};          ///< that an adaptive integrator will try first [s]; 0 = none yet
+  StepMemory memory{};          ///< of an integrator that chooses its own steps
   bool at_break{false};         ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
   std::vector<BodyKinematics>

@@ -33,7 +33,7 @@ struct PhysicsManager::Impl {
   [[nodiscard]] double next_break(double t) const;
   void pass_break();
   [[nodiscard]] bool update(double h);
-  void note_control(const StepControl& control);
+  void note_control(StepControl& control);
   void apply_impulses();
   void list_moved();
   [[nodiscard]] StepReport failure() const;

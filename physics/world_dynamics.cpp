@@ -32,6 +32,7 @@ void WorldDynamics::begin() {
   has_animated_ =
       std::find(bodies_.kinds.begin(), bodies_.kinds.end(), BodyKind::Animated) != bodies_.kinds.end();
   constraints_.ground_motions(bodies_, {bodies_.state.time, Side::After}, grounds_);
+  lane_.fits = false;
 }
 
 std::span<double> WorldDynamics::coordinates_now() {

@@ -9,6 +9,7 @@
 #include <pantin/physics/constraints/constraint_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/lanes/tree_lanes.hpp>
 
 namespace pantin {
 
@@ -56,6 +57,12 @@ class WorldDynamics final : public Dynamics {
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
                       std::span<const double> v_error, double h) override;
 
+  void derivatives(const Stages& stages) override;
+  void rates(const Stages& stages) override;
+  void weights(std::span<double> q_weight, std::span<double> v_weight) override;
+
+  /// What stages are computed in; they are computed one after the other where this is off.
+  bool uses_lanes{true};
   int evaluations{0};           ///< of v' since it was last set to 0
   WrenchSource* also{nullptr};  ///< asked after the force laws; not owned
 
@@ -90,9 +97,25 @@ class WorldDynamics final : public Dynamics {
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };
-  std::vector<double> error_rates_{};  // work space of motion_error
+  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error and weights
   std::vector<LinkMotion> base_{};
   bool has_animated_{false};
+
+  // Stages in lanes (lane_dynamics.cpp).
+  struct LaneRoom {
+    bool fits{false};  ///< to the bodies and trees of now
+    std::vector<lanes::LinkConstants> links{};
+    std::vector<lanes::FreeConstants> free{};
+    std::vector<double> motions{}, wrenches{}, link_motion{}, q{}, v{}, work{};
+  };
+  void fit_lanes(const lanes::Kernel& kernel);
+  void lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,
+                  const std::optional<Vector3>& uniform);
+  void given_motions(const Stages& stages, std::size_t first, std::size_t count);
+  void place_lane(const Stages& stages, std::size_t stage);
+  void collect_wrenches(const Stages& stages, std::size_t first, std::size_t lane, std::size_t count);
+  void free_forces(const Stages& stages, const Vector3& g_W);
+  LaneRoom lane_{};
 };
 
 }  // namespace pantin

@@ -19,5 +19,7 @@ void add_info_command(CLI::App& program, Command& chosen);
 void add_check_command(CLI::App& program, Command& chosen);
 /// `pantin run MODEL...`: simulates some nodes, animates others, and writes what happens.
 void add_run_command(CLI::App& program, Command& chosen);
+/// `pantin solve FILE...`: runs reference problems and measures errors beside cost.
+void add_solve_command(CLI::App& program, Command& chosen);
 
 }  // namespace pantin::cli

@@ -35,6 +35,9 @@ void describe(CLI::App& program, Command& chosen) {
   add_info_command(program, chosen);
   add_check_command(program, chosen);
   add_run_command(program, chosen);
+#ifdef PANTIN_HAS_PROBLEMS
+  add_solve_command(program, chosen);
+#endif
 }
 
 bool reader_went_away() {

@@ -3,6 +3,7 @@
 // make_law(settings) that returns the law object; ForceManager::add finds them by the settings type. No list
 // is to be edited.
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <pantin/physics/bodies_at.hpp>
@@ -26,6 +27,8 @@ class ForceLaw {
     (void)at;
     return 0;
   }
+  /// The acceleration that it gives to every body, always, where that is all it does [m/s^2].
+  [[nodiscard]] virtual std::optional<Vector3> uniform_acceleration() const { return {}; }
   /// Whether the law looks at velocities; lets integrators save evaluations.
   [[nodiscard]] virtual bool depends_on_velocity() const { return false; }
   /// Whether the law names this body; it is removed with the body.

@@ -57,6 +57,16 @@ double ForceManager::potential_energy(const BodiesAt& at) const {
   return sum;
 }
 
+std::optional<Vector3> ForceManager::uniform_acceleration() const {
+  Vector3 sum = Vector3::Zero();
+  for (const Entry& entry : laws_) {
+    const std::optional<Vector3> one = entry.law->uniform_acceleration();
+    if (!one) return {};
+    sum += *one;
+  }
+  return sum;
+}
+
 bool ForceManager::depends_on_velocity() const {
   return std::any_of(laws_.begin(), laws_.end(),
                      [](const Entry& entry) { return entry.law->depends_on_velocity(); });

@@ -30,6 +30,8 @@ class ForceManager {
   /// Adds all laws' wrenches, in the order in which the laws were added.
   void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
   [[nodiscard]] double potential_energy(const BodiesAt& at) const;
+  /// The sum of all laws, where each gives the same acceleration to every body [m/s^2].
+  [[nodiscard]] std::optional<Vector3> uniform_acceleration() const;
   [[nodiscard]] bool depends_on_velocity() const;
 
   // Particles

@@ -26,6 +26,8 @@ class GravityLaw final : public ForceLaw {
     return energy;
   }
 
+  std::optional<Vector3> uniform_acceleration() const override { return g_W_; }
+
   ParticleAction acts_on(ParticleSystemId) const override { return ParticleAction::Each; }
 
   void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {

@@ -4,6 +4,7 @@
 
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/euler.hpp>
+#include <pantin/physics/integrators/gauss.hpp>
 #include <pantin/physics/integrators/implicit_midpoint.hpp>
 #include <pantin/physics/integrators/rk4.hpp>
 #include <pantin/physics/integrators/semi_implicit_euler.hpp>
@@ -24,6 +25,8 @@ constexpr std::array kCatalogue{
     CatalogueEntry{"rk4", make_rk4},
     CatalogueEntry{"implicit-midpoint", make_implicit_midpoint},
     CatalogueEntry{"dormand-prince", make_dormand_prince},
+    CatalogueEntry{"gauss8", make_gauss8},
+    CatalogueEntry{"gauss16", make_gauss16},
 };
 
 }  // namespace

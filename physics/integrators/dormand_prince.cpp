@@ -59,7 +59,7 @@ class DormandPrince final : public Integrator {
     control_.shortest = h;
     const bool controlled = std::isfinite(settings_.tolerance);
     const double end = t + h, floor = kShortest * (std::abs(t) + h);
-    double next = controlled && control_.next > 0 ? control_.next : h, done = 0;
+    double next = controlled && control_.memory.next > 0 ? control_.memory.next : h, done = 0;
     dynamics.derivative({t, Side::After}, q, v, K_[0], L_[0]);
     while (done < h) {
       const bool last = next >= h - done - floor;
@@ -85,7 +85,7 @@ class DormandPrince final : public Integrator {
       next = last ? std::max(next, proposed) : proposed;
       done = last ? h : done + part;
     }
-    control_.next = next;
+    control_.memory.next = next;
     dynamics.settle({t + h, Side::Before}, q, v);
   }
 

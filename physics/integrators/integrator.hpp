@@ -19,6 +19,13 @@ struct Instant {
   Side side{Side::After};
 };
 
+/// States at several instants, side by side: number i of stage s stands at [i * at.size() + s].
+struct Stages {
+  std::span<const Instant> at{};
+  std::span<const double> q{}, v{};
+  std::span<double> q_dot{}, v_dot{};
+};
+
 /// q' = rate(q, v), v' = acceleration(t, q, v). Coordinates and rates need not be of one size: an attitude is
 /// a quaternion (four coordinates, embedded in R^4, used as if normalised) with three angular momenta or
 /// rates. All functions may be called at any stage, with any q near the manifold.
@@ -39,6 +46,14 @@ class Dynamics {
     rate(at, q, v, q_dot);
     acceleration(at, q, v, v_dot);
   }
+  /// The derivative at several states side by side, for methods whose stages can be computed at once. Unless
+  /// told otherwise, one after the other.
+  virtual void derivatives(const Stages& stages);
+  /// q' alone at several states; of `stages` q_dot is written, v_dot is not touched.
+  virtual void rates(const Stages& stages);
+  /// Upper estimates of how far a unit of each coordinate and velocity moves any body [m or rad per unit], at
+  /// any state: what iterations may stop by. Unless told otherwise, one.
+  virtual void weights(std::span<double> q_weight, std::span<double> v_weight);
   /// Brings q and v back to the manifold (unit quaternions, constraints that only the dynamics sees) without
   /// changing numbers that are on it.
   virtual void settle(Instant at, std::span<double> q, std::span<double> v) { (void)at, (void)q, (void)v; }
@@ -50,11 +65,24 @@ class Dynamics {
                                             double h);
   /// Whether v' depends on v besides through constraints that the caller does not see.
   [[nodiscard]] virtual bool acceleration_depends_on_velocity() const { return true; }
+
+ private:
+  std::vector<double> one_stage_{};  // work space of derivatives and rates
+};
+
+/// What a method that looks back keeps from step to step, as part of State. It counts only where the state
+/// presented is to the bit the one reached.
+struct StepMemory {
+  double next{0};                   ///< step to be tried first [s]; 0 = the step asked for
+  double last{0};                   ///< step that the slopes are of [s]
+  std::vector<double> reached{};    ///< q and v at its end
+  std::vector<double> slopes{};     ///< q' and v' at its stages
+  std::vector<double> kept_back{};  ///< what rounding has kept back from q and v
 };
 
 /// What an integrator that chooses its own steps, inside the step asked for, keeps and says of them.
 struct StepControl {
-  double next{0};      ///< to be tried first next time [s]; 0 = the step asked for. Part of State.
+  StepMemory memory{};
   int accepted{0};     ///< of the last step asked for
   int refused{0};      ///< for missing the tolerance
   double shortest{0};  ///< accepted [s]
@@ -79,7 +107,8 @@ class Integrator {
 
 /// A new integrator by name; null for an unknown name.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(std::string_view name);
-/// All known names: "euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint", "dormand-prince".
+/// All known names: "euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint", "dormand-prince",
+/// "gauss8", "gauss16".
 [[nodiscard]] std::vector<std::string> integrator_names();
 
 }  // namespace pantin

@@ -38,7 +38,7 @@ void ParticleBlock::integrate(Integrator& integrator, double t, double h) {
   std::copy_n(v0_.begin(), 3 * n_, v_.begin());
   // An integrator that chooses its steps begins afresh in every batch: what it did elsewhere is no part of
   // State.
-  if (StepControl* control = integrator.control()) control->next = 0;
+  if (StepControl* control = integrator.control()) control->memory.next = 0;
   integrator.step(*this, t, h, {q_.data(), 3 * n_}, {v_.data(), 3 * n_});
 }
 

@@ -9,6 +9,7 @@
 
 #include "support/contracts.hpp"
 #include "support/mechanisms.hpp"
+#include "support/mixed_tree.hpp"
 
 namespace pantin {
 namespace {
@@ -16,30 +17,8 @@ namespace {
 using test::facing;
 using test::joint_here;
 using test::lopsided_mass;
+using test::mixed_tree;
 using test::run;
-
-/// A tree with every joint kind, off its axes everywhere, on the world or floating.
-PhysicsManager mixed_tree(bool floating) {
-  PhysicsManager physics;
-  physics.forces().add(Gravity{});
-  std::vector<BodyId> ids;
-  for (int i = 0; i < 7; ++i) {
-    RigidBodySettings s{.name = "b" + std::to_string(i), .X_WB = {{0.3 * i, 0.1 * (i % 3), 0}}};
-    s.X_WB.q = Quaternion{Eigen::AngleAxisd{0.4 * i, Vector3{1, 1.0 * i, 2}.normalized()}};
-    s.mass = lopsided_mass(1 + 0.3 * i);
-    ids.push_back(physics.add(std::move(s)));
-  }
-  const auto at = [](double x, const Vector3& axis) { return Pose{{x, 0.05, 0.02}, facing(axis)}; };
-  if (!floating)
-    physics.add(joint_here<PivotSettings>(physics, BodyId{}, ids[0], at(-0.2, {1, 2, 0}), "base"));
-  physics.add(joint_here<BallSettings>(physics, ids[0], ids[1], at(0.1, {1, 0, 1}), "ball"));
-  physics.add(joint_here<SliderSettings>(physics, ids[2], ids[1], at(0.4, {0, 1, 1}), "slider"));
-  physics.add(joint_here<FixedSettings>(physics, ids[2], ids[3], at(0.7, {0, 0, 1}), "weld"));
-  physics.add(joint_here<PivotSettings>(physics, ids[3], ids[4], at(1.0, {1, 1, 1}), "elbow"));
-  physics.add(joint_here<PivotSettings>(physics, ids[1], ids[5], at(1.3, {0, 1, 0}), "branch"));
-  physics.add(joint_here<BallSettings>(physics, ids[6], ids[5], at(1.6, {0, 0, 1}), "tip"));
-  return physics;
-}
 
 TEST(ConstraintManager, KeepsTheEnergyOfAMixedTree) {
   // Ideal joints do no work, so energy is constant; RK4's drift falls with h^4 or faster: 16 times and more
@@ -75,6 +54,7 @@ TEST(ConstraintManager, EveryIntegratorKeepsItsOrderWithJoints) {
   const Vector3 exact = tip_after("rk4", 0.4 / 6400);
   for (const std::string& name : integrator_names()) {
     const int order = make_integrator(name)->order();
+    if (order > 5) continue;  // nothing here is as exact; see Gauss
     const double h = 0.4 / (order >= 4 ? 100 : 800);
     const double coarse = (tip_after(name, h) - exact).norm(), fine = (tip_after(name, h / 2) - exact).norm();
     EXPECT_NEAR(std::log2(coarse / fine), order, 0.05 * order + 0.05) << name;

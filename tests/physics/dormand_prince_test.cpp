@@ -53,14 +53,14 @@ TEST(DormandPrince, GrowsAtRestAndShrinksWhereForcesAct) {
   const std::unique_ptr<Integrator> integrator = make_dormand_prince({.tolerance = 1e-8});
   test::ToyBody free{{}};
   test::State state = test::ToyBody::state(test::kToyPose, {0, 0, 0}, {0, 0, 0});
-  integrator->control()->next = 1e-3;
+  integrator->control()->memory.next = 1e-3;
   integrator->step(free, 0, 100, state.q, state.v);
   EXPECT_LE(integrator->control()->accepted, 9);  // 5^8 = 390,625
   test::Oscillator stiff{{.omega = 1000}};
   test::State fast{{1}, {0}};
   integrator->step(stiff, 0, 1, fast.q, fast.v);
   EXPECT_GT(integrator->control()->accepted, 1000);
-  EXPECT_LT(integrator->control()->next, 1e-3);
+  EXPECT_LT(integrator->control()->memory.next, 1e-3);
 }
 
 TEST(DormandPrince, MeasuresErrorsOfTreesAtTheirBodies) {
@@ -96,7 +96,7 @@ TEST(DormandPrince, ContinuesBitForBitFromASnapshot) {
   physics.restore(here);
   ASSERT_TRUE(test::run(physics, 0.1, 5));
   EXPECT_EQ(hash(physics.snapshot()), hash(there));
-  EXPECT_EQ(physics.snapshot().next_step, there.next_step);
+  EXPECT_EQ(physics.snapshot().memory.next, there.memory.next);
 }
 
 TEST(DormandPrince, SaysSoWhereNoStepIsShortEnough) {

@@ -1,0 +1,225 @@
+#include <pantin/bridge/problems/solve.hpp>
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pantin/bridge/problems/rigid_ref.hpp>
+#include <pantin/physics/integrators/dormand_prince.hpp>
+#include <pantin/physics/integrators/gauss.hpp>
+#include <pantin/physics/physics_manager.hpp>
+
+namespace pantin {
+namespace {
+
+using reference::BodySample;
+using reference::Sample;
+
+/// Processor time of this thread [s].
+double cpu_now() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// An integrator that keeps to a tolerance; null where it has no control of its steps.
+std::unique_ptr<Integrator> make_controlled(const std::string& name, double tolerance) {
+  if (name == "gauss8") return make_gauss({.stages = 4, .tolerance = tolerance});
+  if (name == "gauss16") return make_gauss({.stages = 8, .tolerance = tolerance});
+  if (name == "dormand-prince") return make_dormand_prince({.tolerance = tolerance});
+  return nullptr;
+}
+
+double attitude_error(const Quaternion& q, const Quaternion& q_ref) {
+  const Quaternion difference = q.conjugate() * q_ref;
+  return 2 * std::atan2(difference.vec().norm(), std::abs(difference.w()));
+}
+
+/// Keeps the greatest; what is not a number stays.
+void count(std::optional<double>& greatest, double x) {
+  if (!greatest || !(x <= *greatest)) greatest = x;
+}
+
+/// One run of a problem, from building to the last sample.
+class Run {
+ public:
+  Run(const ReferenceProblem& problem, const SolveSettings& settings, SolveResult& result)
+      : problem_{problem}, settings_{settings}, result_{result} {}
+
+  /// False if the problem was refused.
+  bool build() {
+    Loaded<ReferenceInstance> built = instantiate(problem_, physics_);
+    if (!built.value) {
+      result_.status = SolveStatus::Refused;
+      for (const Diagnostic& note : built.notes) {
+        if (note.severity == Severity::Error) result_.messages.push_back(to_string(note));
+      }
+      return false;
+    }
+    built_ = std::move(*built.value);
+    const double infinite = std::numeric_limits<double>::infinity();
+    std::unique_ptr<Integrator> controlled =
+        make_controlled(result_.integrator, settings_.step ? infinite : settings_.tolerance);
+    physics_.set_integrator(controlled ? std::move(controlled) : make_integrator(result_.integrator));
+    return true;
+  }
+
+  void run() {
+    energy_at_start_ = physics_.energy();
+    std::vector<double> times;
+    for (const Sample& sample : problem_.samples) times.push_back(sample.t);
+    if (times.empty()) times.push_back(problem_.duration);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (!advance_to(times[i])) return;
+      static const Sample kNothing{};
+      compare(problem_.samples.empty() ? kNothing : problem_.samples[i]);
+      result_.states.push_back(state());
+    }
+    finish_energy();
+  }
+
+ private:
+  bool advance_to(double t) {
+    const double from = physics_.time(), interval = t - from;
+    if (interval <= 0) return true;
+    const double step = settings_.step.value_or(interval);
+    const long steps = std::max(1L, std::lround(std::ceil(interval / step - 1e-9)));
+    const double start = cpu_now();
+    for (long i = 0; i < steps; ++i) {
+      const StepReport report = physics_.step(interval / static_cast<double>(steps));
+      if (!report.ok()) {
+        result_.status = SolveStatus::Failed;
+        result_.messages.push_back(report.message);
+        return false;
+      }
+      result_.steps += std::max(report.inner_steps, 1);
+      result_.evaluations += report.evaluations;
+      subdivided_ += settings_.step && report.inner_steps > 1 ? 1 : 0;
+    }
+    result_.cpu_seconds += cpu_now() - start;
+    return true;
+  }
+
+  void compare(const Sample& sample) {
+    for (const BodySample& expected : sample.bodies) {
+      const auto found = built_.bodies.find(expected.name);
+      if (found == built_.bodies.end()) continue;
+      const RigidBody body = physics_.body(found->second);
+      if (expected.p_WBcm) count(result_.position_error, (body.p_WBcm() - *expected.p_WBcm).norm());
+      if (expected.q_WB) count(result_.attitude_error, attitude_error(body.q_WB(), *expected.q_WB));
+      if (expected.v_WBcm) count(result_.velocity_error, (body.v_WBcm() - *expected.v_WBcm).norm());
+    }
+    const Energy energy = physics_.energy();
+    if (sample.energy) {
+      const reference::SampleEnergy& e = *sample.energy;
+      for (const double part : {e.kinetic, e.potential_gravity, e.potential_elastic_or_central, e.total}) {
+        energy_scale_ = std::max(energy_scale_, std::abs(part));
+      }
+      count(energy_error_, std::abs(energy.total() - e.total));
+    }
+    count(energy_change_, std::abs(energy.total() - energy_at_start_.total()));
+    own_scale_ = std::max({own_scale_, energy.kinetic, std::abs(energy.potential)});
+    result_.joint_drift = std::max(result_.joint_drift, physics_.joint_drift().distance);
+  }
+
+  [[nodiscard]] SolvedState state() const {
+    SolvedState now{.t = physics_.time()};
+    for (const reference::Body& body : problem_.bodies) {
+      const RigidBody at = physics_.body(built_.bodies.find(body.name)->second);
+      now.bodies.push_back({.name = body.name,
+                            .mass = {},
+                            .X_WB = {at.p_WBcm(), at.q_WB()},
+                            .v_WBcm = at.v_WBcm(),
+                            .w_WB = at.w_WB()});
+    }
+    return now;
+  }
+
+  /// Whether nothing takes energy away or brings it.
+  [[nodiscard]] bool keeps_energy() const {
+    if (!problem_.kinematic_bodies.empty() || !problem_.contacts.empty()) return false;
+    return std::all_of(problem_.forces.begin(), problem_.forces.end(), [](const reference::Force& force) {
+      const auto* spring = std::get_if<reference::Spring>(&force);
+      return (spring != nullptr && spring->damping == 0) ||
+             std::holds_alternative<reference::CentralGravity>(force);
+    });
+  }
+
+  void finish_energy() {
+    if (subdivided_ > 0) {
+      result_.messages.push_back(std::to_string(subdivided_) + " of " + std::to_string(result_.steps) +
+                                 " steps had to be subdivided; give a shorter step");
+    }
+    if (energy_error_) {
+      result_.energy_drift = *energy_error_ / (energy_scale_ > 0 ? energy_scale_ : 1);
+    } else if (energy_change_ && keeps_energy()) {
+      result_.energy_drift = *energy_change_ / (own_scale_ > 0 ? own_scale_ : 1);
+    }
+  }
+
+  const ReferenceProblem& problem_;
+  const SolveSettings& settings_;
+  SolveResult& result_;
+  PhysicsManager physics_{};
+  ReferenceInstance built_{};
+  Energy energy_at_start_{};
+  std::optional<double> energy_error_{}, energy_change_{};
+  double energy_scale_{0}, own_scale_{0};
+  long subdivided_{0};
+};
+
+}  // namespace
+
+std::optional<SettingsProblem> problem_with(const SolveSettings& settings) {
+  if (settings.integrator != "auto" && make_integrator(settings.integrator) == nullptr) {
+    return SettingsProblem{ProblemCode::OutOfRange, "no integrator is called '" + settings.integrator + "'",
+                           "give auto or one that integrator_names() lists"};
+  }
+  const bool controlled = settings.integrator == "auto" || make_controlled(settings.integrator, 1) != nullptr;
+  if (!settings.step && !controlled) {
+    return SettingsProblem{ProblemCode::OutOfRange,
+                           "integrator '" + settings.integrator + "' keeps to no tolerance", "give a step"};
+  }
+  if (settings.step && !(*settings.step > 0 && std::isfinite(*settings.step))) {
+    return SettingsProblem{ProblemCode::OutOfRange, "the step is not finite and above zero",
+                           "give a step in seconds"};
+  }
+  if (!(settings.tolerance > 0 && std::isfinite(settings.tolerance))) {
+    return SettingsProblem{ProblemCode::OutOfRange, "the tolerance is not finite and above zero",
+                           "give an error per second"};
+  }
+  if (settings.repeats < 1)
+    return SettingsProblem{ProblemCode::OutOfRange, "repeats are fewer than one", "give at least one"};
+  return {};
+}
+
+std::string to_string(SolveStatus status) {
+  return status == SolveStatus::Ok ? "ok" : status == SolveStatus::Refused ? "refused" : "failed";
+}
+
+SolveResult solve(const ReferenceProblem& problem, const SolveSettings& settings) {
+  SolveResult best;
+  for (int repeat = 0; repeat < settings.repeats; ++repeat) {
+    SolveResult result{.problem = problem.name};
+    result.islands = choose_solvers(problem, settings.tolerance);
+    result.integrator = settings.integrator;
+    if (settings.integrator == "auto") {
+      // One integrator drives all islands; the most demanding choice is good for the others.
+      result.integrator = result.islands.empty() ? "gauss16" : result.islands.front().solver;
+    } else {
+      for (IslandChoice& island : result.islands) {
+        island.solver = settings.integrator;
+        island.reason = "asked for";
+      }
+    }
+    Run run{problem, settings, result};
+    if (!run.build()) return result;
+    run.run();
+    if (result.status != SolveStatus::Ok) return result;
+    if (repeat == 0 || result.cpu_seconds < best.cpu_seconds) best = std::move(result);
+  }
+  return best;
+}
+
+}  // namespace pantin

@@ -1,0 +1,292 @@
+// Stage values  V_i = v + h sum a_ij F_j,  Q_i = q + h sum a_ij K_j,  K_i = rate(Q_i, V_i),  F_i = v'(Q_i,
+// V_i), iterated until they repeat; then  q1 = q + h sum b_j K_j,  v1 = v + h sum b_j F_j, in compensated
+// sums. K is taken at the newest V, so that motion along q' = v converges as for an equation of second order.
+// The iteration starts from the polynomial of the step before, continued; its last coefficients, which fall
+// off geometrically where the motion is resolved, say how large the first one left out is. M. Antonana, E.
+// Alberdi, J. Makazaga, A. Murua, An implicit symplectic solver for high-precision long-term integrations of
+// the Solar System, 2022, for the arrangement of stages; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
+// Integration, 2nd ed., VIII.6, for starting values and stopping.
+#include <pantin/physics/integrators/gauss.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <pantin/physics/expects.hpp>
+#include <pantin/physics/integrators/collocation.hpp>
+#include <pantin/physics/integrators/stage_arrays.hpp>
+#include <pantin/physics/integrators/step_arrays.hpp>
+#include <pantin/physics/setting_checks.hpp>
+
+namespace pantin {
+namespace {
+
+constexpr double kSafety = 0.9, kShrinkMost = 0.2, kGrowMost = 2;
+/// Accepted all the same: an error this much over the tolerance, which the safety factor makes rare.
+constexpr double kOvershoot = 2;
+/// The iteration stops where what it would still change is this part of the tolerance.
+constexpr double kIterationShare = 0.1;
+/// With more sweeps than this a step does not grow; one that needs more than the second number is halved.
+constexpr int kCheapSweeps = 8, kMostSweeps = 16;
+/// Where the step is given, as many as it takes.
+constexpr int kMostSweepsFixed = 60;
+/// The first step, as a part of the time in which slopes change by themselves, for each stage.
+constexpr double kFirstReach = 0.12;
+/// Steps shorter than this (of the time reached and the step asked for) are not tried.
+constexpr double kShortest = 1e-14;
+/// Slopes are not known better than this, relative to themselves.
+constexpr double kRounding = 1e-15;
+
+class Gauss final : public Integrator {
+ public:
+  explicit Gauss(const GaussSettings& settings)
+      : settings_{settings}, method_{gauss_collocation(settings.stages)} {}
+
+  std::string_view name() const override {
+    return settings_.stages == 4 ? "gauss8" : settings_.stages == 8 ? "gauss16" : "gauss";
+  }
+  int order() const override { return 2 * settings_.stages; }
+  int evaluations(const Dynamics&) const override { return 2 * settings_.stages; }
+  StepControl* control() override { return &control_; }
+
+  void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {
+    expect_step(dynamics, t, h, q, v);
+    control_.accepted = control_.refused = 0;
+    control_.shortest = h;
+    if (q.empty() && v.empty()) return;
+    begin(dynamics, q, v);
+    const double end = t + h, floor = kShortest * (std::abs(t) + h);
+    double next = first_step(t, h, q, v), done = 0;
+    while (done < h) {
+      const double rest = h - done;
+      // Two equal steps to the end rather than a long and a very short one.
+      const bool last = next >= rest - floor;
+      const double part = last ? rest : (next > 0.5 * rest ? 0.5 * rest : next);
+      const Outcome outcome = attempt(last ? end - part : t + done, part, q, v);
+      if (!outcome.accepted) {
+        ++control_.refused;
+        next = part * outcome.factor;
+        if (next < floor) return give_up(v);
+        continue;
+      }
+      finish(part, q, v);
+      dynamics.settle({last ? end : t + done + part, Side::Before}, q, v);
+      ++control_.accepted;
+      control_.shortest = std::min(control_.shortest, part);
+      const double proposed = part * outcome.factor;
+      next = last ? std::max(next, proposed) : proposed;
+      done = last ? h : done + part;
+    }
+    note_reached(next, q, v);
+  }
+
+ private:
+  struct Outcome {
+    bool accepted{false};
+    double factor{1};  ///< of the step tried: what to try next
+  };
+  /// Slopes at the stages, of coordinates and velocities.
+  struct Slopes {
+    std::span<double> q{}, v{};
+  };
+
+  void begin(Dynamics& dynamics, std::span<const double> q, std::span<const double> v) {
+    dynamics_ = &dynamics;
+    const auto s = static_cast<std::size_t>(method_.nodes);
+    const std::size_t nq = q.size(), nv = v.size();
+    work_.reserve((3 * s + 1) * (nq + nv));
+    Q_ = work_.take(nq * s), V_ = work_.take(nv * s);
+    now_ = {work_.take(nq * s), work_.take(nv * s)};
+    fresh_ = {work_.take(nq * s), work_.take(nv * s)};
+    q_weight_ = work_.take(nq), v_weight_ = work_.take(nv);
+    dynamics.weights(q_weight_, v_weight_);
+
+    StepMemory& memory = control_.memory;
+    continues_ = memory.reached.size() == nq + nv && memory.slopes.size() == (nq + nv) * s &&
+                 std::equal(q.begin(), q.end(), memory.reached.begin()) &&
+                 std::equal(v.begin(), v.end(), memory.reached.begin() + static_cast<std::ptrdiff_t>(nq));
+    if (!continues_) {
+      memory.reached.resize(nq + nv);
+      memory.slopes.resize((nq + nv) * s);
+      memory.kept_back.assign(nq + nv, 0.0);
+    }
+    const std::span<double> slopes{memory.slopes}, kept{memory.kept_back};
+    before_ = {slopes.first(nq * s), slopes.last(nv * s)};
+    kept_ = {kept.first(nq), kept.last(nv)};
+  }
+
+  void note_reached(double next, std::span<const double> q, std::span<const double> v) {
+    StepMemory& memory = control_.memory;
+    memory.next = next;
+    std::copy(q.begin(), q.end(), memory.reached.begin());
+    std::copy(v.begin(), v.end(), memory.reached.begin() + static_cast<std::ptrdiff_t>(q.size()));
+  }
+
+  /// The step to try first. Where nothing is known, from how fast the slopes change over a short trial.
+  double first_step(double t, double h, std::span<const double> q, std::span<const double> v) {
+    if (!std::isfinite(settings_.tolerance)) return h;
+    if (continues_) return control_.memory.next;
+    const std::span<double> k0 = now_.q.first(q.size()), f0 = now_.v.first(v.size());
+    const std::span<double> k1 = fresh_.q.first(q.size()), f1 = fresh_.v.first(v.size());
+    const std::span<double> q1 = Q_.first(q.size()), v1 = V_.first(v.size());
+    const double trial = 1e-3 * h;
+    dynamics_->derivative({t, Side::After}, q, v, k0, f0);
+    set_sum(v1, v, trial, f0);
+    dynamics_->rate({t, Side::After}, q, v1, k0);
+    set_sum(q1, q, trial, k0);
+    dynamics_->derivative({t + trial, Side::Before}, q1, v1, k1, f1);
+    // Accelerations change by omega^2 trial^2 of themselves, rates, at equal velocities, by omega trial.
+    const double per_force =
+        quotient(greatest_difference(f1, f0, v_weight_), greatest(f0, v_weight_) + greatest(f1, v_weight_));
+    const double per_rate = quotient(greatest_difference(k1, k0, q_weight_), greatest(k0, q_weight_));
+    const double omega = std::max(std::sqrt(per_force), per_rate) / trial;
+    return omega * h > kFirstReach * settings_.stages ? kFirstReach * settings_.stages / omega : h;
+  }
+
+  Outcome attempt(double t, double h, std::span<const double> q, std::span<const double> v) {
+    for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = {t + h * method_.c[i], Side::Before};
+    start(t, h, q, v);
+    const bool controlled = std::isfinite(settings_.tolerance);
+    const int most = controlled ? kMostSweeps : kMostSweepsFixed;
+    enough_ = std::max(controlled ? kIterationShare * settings_.tolerance : 0, kRounding * slope_size(h));
+    double last_change = 0;
+    for (int sweep = 1;; ++sweep) {
+      const double change = this->sweep(h, q, v), rho = sweep > 1 ? quotient(change, last_change) : 1;
+      if (change <= enough_ || (sweep > 1 && rho < 1 && change * rho < enough_ * (1 - rho))) {
+        return judge(h, sweep, q, v);
+      }
+      // What changes at the level of rounding will not settle further.
+      if (sweep > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) return judge(h, sweep, q, v);
+      const bool hopeless =
+          sweep > 2 && (rho > 0.9 || change * std::pow(rho, most - sweep) > enough_ * (1 - rho));
+      if (!std::isfinite(change) || hopeless || sweep == most) {
+        return {false, std::isfinite(change) ? std::clamp(std::sqrt(0.2 / rho), 0.25, 0.7) : kShrinkMost};
+      }
+      last_change = change;
+    }
+  }
+
+  /// Slopes to start the iteration from: the polynomial of the step before, or the slopes of now.
+  void start(double t, double h, std::span<const double> q, std::span<const double> v) {
+    if (continues_) {
+      const NodeMatrix E = extrapolation(method_, h / control_.memory.last);
+      combine_stages(method_.nodes, now_.q, before_.q, E);
+      combine_stages(method_.nodes, now_.v, before_.v, E);
+      return;
+    }
+    const std::span<double> k0 = fresh_.q.first(q.size()), f0 = fresh_.v.first(v.size());
+    dynamics_->derivative({t, Side::After}, q, v, k0, f0);
+    spread(method_.nodes, now_.q, k0);
+    spread(method_.nodes, now_.v, f0);
+  }
+
+  /// One iteration, from now_ to now_; says by how much it changed the slopes, as motion per unit time.
+  double sweep(double h, std::span<const double> q, std::span<const double> v) {
+    const int s = method_.nodes;
+    add_stages(s, V_, v, h, now_.v, method_.a);
+    add_stages(s, Q_, q, h, now_.q, method_.a);
+    dynamics_->rates({at(), Q_, V_, now_.q, {}});
+    add_stages(s, Q_, q, h, now_.q, method_.a);
+    dynamics_->derivatives({at(), Q_, V_, fresh_.q, fresh_.v});
+    const double change = std::max(greatest_difference(s, fresh_.q, now_.q, q_weight_),
+                                   h * greatest_difference(s, fresh_.v, now_.v, v_weight_));
+    std::swap(now_, fresh_);
+    return change;
+  }
+
+  /// Of a step whose iteration has settled: whether the polynomial is good enough, and the next step.
+  Outcome judge(double h, int sweeps, std::span<const double> q, std::span<const double> v) {
+    if (!std::isfinite(settings_.tolerance)) return {true, 1};
+    const double error = estimate(h, q, v);
+    const double ratio = error / settings_.tolerance;
+    const double factor = ratio > 0 ? kSafety * std::pow(ratio, -1.0 / (2 * settings_.stages)) : kGrowMost;
+    if (!(ratio <= kOvershoot)) {
+      return {false, std::clamp(std::isfinite(factor) ? factor : 0, kShrinkMost, 0.9)};
+    }
+    return {true, std::clamp(factor, kShrinkMost, sweeps > kCheapSweeps ? 1 : kGrowMost)};
+  }
+
+  /// Error per unit time. The quadrature leaves out the Legendre coefficient number 2 s of the slopes; it is
+  /// the last one known, s - 1, continued at the rate at which the last ones fall off.
+  double estimate(double h, std::span<const double> q, std::span<const double> v) {
+    const int s = method_.nodes;
+    const std::span<double> q_top = fresh_.q.first(q.size()), v_top = fresh_.v.first(v.size());
+    std::array<double, 4> sizes{};  // of the last four coefficients, the last one first
+    for (int back = std::min(s, 4) - 1; back >= 0; --back) {
+      const auto& row = method_.legendre[static_cast<std::size_t>(s - 1 - back)];
+      coefficients(s, q_top, now_.q, row);
+      coefficients(s, v_top, now_.v, row);
+      sizes[static_cast<std::size_t>(back)] =
+          std::max(greatest(q_top, q_weight_), h * greatest(v_top, v_weight_));
+    }
+    // Every other coefficient may vanish by symmetry: two neighbours against the two before them.
+    const double last = std::max(sizes[0], sizes[1]), noise = 10 * kRounding * slope_size(h);
+    if (last <= noise) return 0;
+    const double decay = std::sqrt(last / std::max({sizes[2], sizes[3], noise}));
+    const double missing = std::pow(std::min(decay, 1.0), s + 1);
+    if (s == 1 || sizes[0] >= decay * sizes[1])
+      return missing * dynamics_->motion_error(q, v, q_top, v_top, h);
+    const auto& row = method_.legendre[static_cast<std::size_t>(s - 2)];
+    coefficients(s, q_top, now_.q, row);
+    coefficients(s, v_top, now_.v, row);
+    return missing * decay * dynamics_->motion_error(q, v, q_top, v_top, h);
+  }
+
+  /// How large the slopes are, as motion per unit time.
+  double slope_size(double h) const {
+    return std::max(greatest(method_.nodes, now_.q, q_weight_),
+                    h * greatest(method_.nodes, now_.v, v_weight_));
+  }
+
+  /// The end of a step from its slopes.
+  void finish(double h, std::span<double> q, std::span<double> v) {
+    const int s = method_.nodes;
+    add_stages(s, V_, v, h, now_.v, method_.a);
+    dynamics_->rates({at(), Q_, V_, now_.q, {}});
+    add_compensated(s, q, kept_.q, h, now_.q, method_.b);
+    add_compensated(s, v, kept_.v, h, now_.v, method_.b);
+    std::copy(now_.q.begin(), now_.q.end(), before_.q.begin());
+    std::copy(now_.v.begin(), now_.v.end(), before_.v.begin());
+    control_.memory.last = h;
+    continues_ = true;
+  }
+
+  // No step is short enough. The manager finds what is not finite and keeps the state before.
+  void give_up(std::span<double> v) {
+    control_.memory = {};
+    std::fill(v.begin(), v.end(), std::numeric_limits<double>::quiet_NaN());
+  }
+
+  [[nodiscard]] std::span<const Instant> at() const {
+    return {at_.data(), static_cast<std::size_t>(method_.nodes)};
+  }
+
+  GaussSettings settings_{};
+  Collocation method_{};
+  StepControl control_{};
+  double enough_{0};  ///< change of slopes at which the iteration stops
+  Dynamics* dynamics_{nullptr};
+  bool continues_{false};
+  WorkSpace work_{};
+  std::array<Instant, kMostNodes> at_{};
+  std::span<double> Q_{}, V_{}, q_weight_{}, v_weight_{};
+  Slopes now_{}, fresh_{}, before_{};
+  Slopes kept_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_gauss(const GaussSettings& settings) {
+  PANTIN_EXPECTS(settings.stages >= 1 && settings.stages <= kMostNodes,
+                 "stages is " + std::to_string(settings.stages) + "; give 1 to 8");
+  PANTIN_EXPECTS(settings.tolerance > 0,
+                 "tolerance is " + text_of(settings.tolerance) + "; give an error per second above zero");
+  return std::make_unique<Gauss>(settings);
+}
+
+std::unique_ptr<Integrator> make_gauss8() { return make_gauss({.stages = 4, .tolerance = 1e-6}); }
+std::unique_ptr<Integrator> make_gauss16() { return make_gauss({.stages = 8, .tolerance = 1e-10}); }
+
+}  // namespace pantin

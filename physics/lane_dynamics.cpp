@@ -1,0 +1,205 @@
+// Stages of the world side by side: trees in the lane kernel, free bodies in lanes, force laws stage after
+// stage unless all they do is the same acceleration for everybody.
+#include <algorithm>
+#include <cstdint>
+
+#include <pantin/physics/constraints/joint_models.hpp>
+#include <pantin/physics/world_dynamics.hpp>
+
+namespace pantin {
+
+namespace {
+
+constexpr std::size_t kFreeCoordinates = 7, kFreeVelocities = 6, kAlignment = 8;  // numbers
+
+/// The first number of `room` on a boundary of 64 bytes.
+double* aligned(std::vector<double>& room) {
+  const auto address = reinterpret_cast<std::uintptr_t>(room.data());
+  return room.data() + (64 - address % 64) % 64 / sizeof(double);
+}
+
+/// R, p, v, w, alpha, a of a motion at one lane, in the order of lanes::Task.
+void put_motion(const RigidMotion& motion, std::size_t lanes, double* out) {
+  const Matrix3 R = motion.X_AB.rotation();
+  for (int k = 0; k < 9; ++k) out[static_cast<std::size_t>(k) * lanes] = R(k / 3, k % 3);
+  const Vector3* vectors[] = {&motion.X_AB.p, &motion.w_AB, &motion.v_AB, &motion.alpha_AB, &motion.a_AB};
+  double* to = out + 9 * lanes;
+  for (const Vector3* vector : vectors) {
+    for (int k = 0; k < 3; ++k, to += lanes) *to = (*vector)[k];
+  }
+}
+
+void take_stage(std::span<const double> all, std::size_t stages, std::size_t stage,
+                std::vector<double>& one) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = all[i * stages + stage];
+}
+
+}  // namespace
+
+void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
+  if (lane_.fits) return;
+  const TreeLayout& layout = constraints_.layout();
+  lanes::fill_constants(layout, bodies_, lane_.links, lane_.free);
+  const auto count = static_cast<std::size_t>(kernel.lanes);
+  std::size_t given = 0, largest = 0;
+  for (const lanes::LinkConstants& link : lane_.links) {
+    given = std::max(
+        {given, static_cast<std::size_t>(link.ground + 1), static_cast<std::size_t>(link.given + 1)});
+  }
+  for (const Tree& tree : layout.trees) {
+    largest =
+        std::max(largest, kernel.work_size(tree.links_end - tree.links_begin, tree.v_end - tree.v_begin));
+  }
+  lane_.motions.resize(given * lanes::kMotionNumbers * count);
+  lane_.wrenches.resize(lane_.links.size() * 6 * count);
+  lane_.link_motion.resize(lanes::kLinkMotionNumbers * count);
+  lane_.work.resize(largest + kAlignment);
+  lane_.q.resize(q_.size());
+  lane_.v.resize(v_.size());
+  lane_.fits = true;
+}
+
+void WorldDynamics::rates(const Stages& stages) {
+  const std::size_t count = stages.at.size();
+  const lanes::Kernel* kernel = lanes::kernel_for_stages(count);
+  if (!uses_lanes || kernel == nullptr) return Dynamics::rates(stages);
+  fit_lanes(*kernel);
+  for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(kernel->lanes)) {
+    kernel->free_rates({lane_.free.data(), lane_.free.size(), stages.q.data(), stages.v.data(),
+                        stages.q_dot.data(), count, first});
+  }
+  const TreeLayout& layout = constraints_.layout();
+  const std::size_t q0 = (stages.q.size() / count - layout.coordinates) * count,
+                    v0 = (stages.v.size() / count - layout.rates) * count;
+  for (const TreeLink& link : layout.links) {
+    const double *q = stages.q.data() + q0 + link.q * count, *v = stages.v.data() + v0 + link.v * count;
+    double* out = stages.q_dot.data() + q0 + link.q * count;
+    with_model(link, [&](auto model) {
+      using Model = decltype(model);
+      if constexpr (Model::kCoordinates == Model::kRates) {
+        std::copy_n(v, static_cast<std::size_t>(Model::kRates) * count, out);
+      } else {
+        for (std::size_t s = 0; s < count; ++s) {
+          double one_q[Model::kCoordinates], one_v[Model::kRates], one_out[Model::kCoordinates];
+          for (std::size_t k = 0; k < Model::kCoordinates; ++k) one_q[k] = q[k * count + s];
+          for (std::size_t k = 0; k < Model::kRates; ++k) one_v[k] = v[k * count + s];
+          model.rate(one_q, one_v, one_out);
+          for (std::size_t k = 0; k < Model::kCoordinates; ++k) out[k * count + s] = one_out[k];
+        }
+      }
+    });
+  }
+}
+
+void WorldDynamics::derivatives(const Stages& stages) {
+  const std::size_t count = stages.at.size();
+  const lanes::Kernel* kernel = lanes::kernel_for_stages(count);
+  if (!uses_lanes || kernel == nullptr) return Dynamics::derivatives(stages);
+  rates(stages);
+  evaluations += static_cast<int>(count);
+  const bool plain = also == nullptr && !bodies_.state.loaded;
+  const std::optional<Vector3> uniform = plain ? forces_.uniform_acceleration() : std::nullopt;
+  if (uniform) free_forces(stages, *uniform);
+  for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(kernel->lanes)) {
+    lane_group(stages, *kernel, first, uniform);
+  }
+}
+
+void WorldDynamics::free_forces(const Stages& stages, const Vector3& g_W) {
+  const std::size_t count = stages.at.size();
+  double* out = stages.v_dot.data();
+  for (const std::uint32_t i : free_bodies()) {
+    const Vector3 force = bodies_.mass[i].mass * g_W;
+    for (int k = 0; k < 6; ++k, out += count) std::fill_n(out, count, k < 3 ? force[k] : 0.0);
+  }
+}
+
+void WorldDynamics::given_motions(const Stages& stages, std::size_t first, std::size_t count) {
+  const TreeLayout& layout = constraints_.layout();
+  for (std::size_t i = 0; i < lane_.links.size(); ++i) {
+    const lanes::LinkConstants& c = lane_.links[i];
+    const TreeLink& link = layout.links[i];
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Instant& at = stages.at[first + lane];
+      const auto to = [&](std::int32_t number) {
+        return lane_.motions.data() + static_cast<std::size_t>(number) * lanes::kMotionNumbers * count + lane;
+      };
+      if (c.ground >= 0) {
+        const auto body = static_cast<std::size_t>(link.ground);
+        put_motion(bodies_.kinds[body] == BodyKind::Animated ? bodies_.drivers[body]->motion(at.t, at.side)
+                                                             : grounds_[body],
+                   count, to(c.ground));
+      }
+      if (c.given >= 0) {
+        const RigidMotion motion = link.driver->motion(at.t, at.side);
+        put_motion(link.reversed ? inverse(motion) : motion, count, to(c.given));
+      }
+    }
+  }
+}
+
+void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,
+                               const std::optional<Vector3>& uniform) {
+  const TreeLayout& layout = constraints_.layout();
+  const std::size_t count = stages.at.size(), lanes = static_cast<std::size_t>(kernel.lanes);
+  if (!lane_.motions.empty()) given_motions(stages, first, lanes);
+  lanes::Task task{.links = lane_.links.data(),
+                   .q = stages.q.data() + (stages.q.size() / count - layout.coordinates) * count,
+                   .v = stages.v.data() + (stages.v.size() / count - layout.rates) * count,
+                   .v_dot = stages.v_dot.data() + (stages.v.size() / count - layout.rates) * count,
+                   .stages = count,
+                   .first = first,
+                   .motions = lane_.motions.data(),
+                   .work = aligned(lane_.work)};
+  if (uniform) std::copy_n(uniform->data(), 3, task.gravity);
+  if (!uniform) {
+    std::fill(lane_.wrenches.begin(), lane_.wrenches.end(), 0.0);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      // All trees are placed before any law is asked: laws couple them.
+      place_lane(stages, first + lane);
+      gather_wrenches(stages.at[first + lane]);
+      collect_wrenches(stages, first, lane, lanes);
+    }
+  }
+  for (const Tree& tree : layout.trees) {
+    task.begin = tree.links_begin, task.end = tree.links_end;
+    kernel.outward(task);
+    for (std::uint32_t l = tree.links_begin; !uniform && l < tree.links_end; ++l) {
+      kernel.add_wrench(task, l, lane_.wrenches.data() + l * 6 * lanes);
+    }
+    kernel.solve(task);
+  }
+}
+
+void WorldDynamics::place_lane(const Stages& stages, std::size_t stage) {
+  take_stage(stages.q, stages.at.size(), stage, lane_.q);
+  take_stage(stages.v, stages.at.size(), stage, lane_.v);
+  place_grounds(stages.at[stage]);
+  place_free(lane_.q, lane_.v, {});
+  place_trees(stages.at[stage], lane_.q, lane_.v);
+}
+
+void WorldDynamics::collect_wrenches(const Stages& stages, std::size_t first, std::size_t lane,
+                                     std::size_t count) {
+  double* out = stages.v_dot.data() + first + lane;
+  for (const std::uint32_t i : free_bodies()) {
+    for (int k = 0; k < 6; ++k, out += stages.at.size())
+      *out = k < 3 ? wrenches_[i].force[k] : wrenches_[i].torque[k - 3];
+  }
+  const TreeLayout& layout = constraints_.layout();
+  for (std::size_t l = 0; l < layout.links.size(); ++l) {
+    const LinkWork& work = constraints_.kernel().link(static_cast<std::int32_t>(l));
+    const Vector3 p{work.p.x, work.p.y, work.p.z};
+    double* to = lane_.wrenches.data() + l * 6 * count + lane;
+    for (std::uint32_t m = layout.links[l].members_begin; m < layout.links[l].members_end; ++m) {
+      const std::uint32_t i = layout.members[m].body;
+      const Vector3 torque = wrenches_[i].torque + (stage_[i].p_WBcm - p).cross(wrenches_[i].force);
+      for (std::size_t k = 0; k < 3; ++k) {
+        to[k * count] += wrenches_[i].force[static_cast<Eigen::Index>(k)];
+        to[(3 + k) * count] += torque[static_cast<Eigen::Index>(k)];
+      }
+    }
+  }
+}
+
+}  // namespace pantin
