@@ -12,6 +12,7 @@ set(package_of_tinyxml2::tinyxml2 tinyxml2)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/pantin)
 file(RELATIVE_PATH up_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" up_from_pkgconfig "${up_from_pkgconfig}")
 get_property(components GLOBAL PROPERTY PANTIN_COMPONENTS)
 set(needs_of_components "")
 foreach(component ${components})
