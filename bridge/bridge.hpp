@@ -11,6 +11,7 @@
 // reparent             | world pose; joint frames re-based       | kept
 // teleport             | nothing                                 | as stated
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@
 #include <pantin/bridge/diagnostic.hpp>
 #include <pantin/bridge/drive.hpp>
 #include <pantin/bridge/model.hpp>
+#include <pantin/physics/collision/triangle_index.hpp>
+#include <pantin/physics/deflector.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/scenegraph/player.hpp>
 #include <pantin/scenegraph/scene.hpp>
@@ -60,6 +63,20 @@ struct TakeBackSettings {
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const TakeBackSettings& settings);
 
 enum class TeleportVelocity { Keep, Zero };
+
+/// Makes the index over the triangles of a mesh; make_fcl_triangle_index of component collision_fcl is one.
+using IndexTriangles = std::function<std::shared_ptr<const TriangleIndex>(const MeshShape&)>;
+
+struct DeflectSettings {
+  SurfaceSettings surface{};
+  IndexTriangles index{};  ///< what becomes a mesh needs it; without one it is an error
+};
+
+/// What deflect made: on whom, and what there is to say.
+struct Deflected {
+  std::vector<DeflectorId> ids{};
+  std::vector<Diagnostic> notes{};
+};
 
 /// A change of drive at a time to come.
 struct Toggle {
@@ -127,6 +144,12 @@ class Bridge {
   std::vector<Diagnostic> follow(NodeId id, Scope scope = Scope::Node);
   std::vector<Diagnostic> fix(NodeId id, Scope scope = Scope::Node);  ///< binds with drive Static
   void release(NodeId id, Scope scope = Scope::Node);  ///< removes body and joint, keeps the node
+  /// Turns particles back at the node's shapes, or its meshes where it has none, and at those of unbound
+  /// nodes that follow it. The deflectors are fixed to the body of the node or of the nearest bound node
+  /// above, of any drive, and go with it; where none is bound, to the world as the node stands now. Scale,
+  /// shear and mirror are baked in: a box that is sheared becomes a mesh. Balls and capsules that are
+  /// stretched unevenly, cylinders, cones and ellipsoids have no deflector and are errors.
+  Deflected deflect(NodeId id, const DeflectSettings& settings = {});
   /// Moves a bound or unbound node to a world matrix at once; the history is reset, also in a frame with no
   /// update. What hangs on a body by joints goes along, below an unbound node all bodies do. The residual of
   /// a body must fit: an error names the node.

@@ -16,23 +16,6 @@ std::string number(double value) {
   return text;
 }
 
-/// A node that follows the body's node rigidly, and where it is in the body.
-struct Follower {
-  NodeId node{};
-  Affine M_BD{Affine::Identity()};
-};
-
-/// The node itself and all below it up to bound ones, parents first.
-std::vector<Follower> followers(const MassSources& from, NodeId node, const Affine& M_BN) {
-  std::vector<Follower> found{{node, M_BN}};
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    for (const NodeId child : from.scene.children(found[k].node)) {
-      if (!from.is_bound(child)) found.push_back({child, found[k].M_BD * from.scene.local(child)});
-    }
-  }
-  return found;
-}
-
 /// Solid geometry in S at its real volume under M_BS: mass in B.
 MassProperties placed(const Affine& M_BS, const Shape& shape, double density) {
   return mapped(M_BS, mass_of(shape, density * std::abs(M_BS.linear().determinant())));
@@ -51,7 +34,7 @@ struct Geometry {
   std::vector<MassProperties> parts{};
   std::size_t shapes{0}, meshes{0}, boxes{0}, unusable{0};
 
-  void add(const Follower& at, const NodeBody& body, double density) {
+  void add(const RigidFollower& at, const NodeBody& body, double density) {
     for (const Shape& shape : body.shapes) {
       if (problem_with(shape)) {
         ++unusable;
@@ -87,7 +70,7 @@ struct Geometry {
 class Derivation {
  public:
   Derivation(const MassSources& from, NodeId node, const Affine& M_BN, double density)
-      : from_{from}, node_{node}, density_{density}, followers_{followers(from, node, M_BN)} {}
+      : from_{from}, node_{node}, density_{density}, followers_{rigid_followers(from, node, M_BN)} {}
 
   DerivedMass result() && {
     const NodeBody* own = body(node_);
@@ -114,7 +97,7 @@ class Derivation {
   /// Geometry of the node, and of unbound nodes below that declare no mass.
   [[nodiscard]] Geometry own_and_undeclared() const {
     Geometry geometry;
-    for (const Follower& at : followers_) {
+    for (const RigidFollower& at : followers_) {
       const NodeBody* known = body(at.node);
       if (known != nullptr && (at.node == node_ || !known->mass)) geometry.add(at, *known, density_);
     }
@@ -165,12 +148,22 @@ class Derivation {
   const MassSources& from_;
   NodeId node_;
   double density_;
-  std::vector<Follower> followers_;
+  std::vector<RigidFollower> followers_;
   std::vector<MassProperties> parts_{};
   DerivedMass out_{};
 };
 
 }  // namespace
+
+std::vector<RigidFollower> rigid_followers(const MassSources& from, NodeId node, const Affine& M_BN) {
+  std::vector<RigidFollower> found{{node, M_BN}};
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    for (const NodeId child : from.scene.children(found[k].node)) {
+      if (!from.is_bound(child)) found.push_back({child, found[k].M_BD * from.scene.local(child)});
+    }
+  }
+  return found;
+}
 
 MassProperties mapped(const Affine& M_BN, const MassProperties& mass) {
   MassProperties in_B = deformed(M_BN.linear(), mass);

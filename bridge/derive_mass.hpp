@@ -23,6 +23,16 @@ struct MassSources {
   std::function<bool(NodeId)> is_bound;  ///< nodes that have, or are about to get, a body of their own
 };
 
+/// A node that follows a body's node rigidly, and where it is in the body.
+struct RigidFollower {
+  NodeId node{};
+  Affine M_BD{Affine::Identity()};
+};
+
+/// The node itself, which lies in the body by `M_BN`, and all below it up to bound ones, parents first.
+[[nodiscard]] std::vector<RigidFollower> rigid_followers(const MassSources& from, NodeId node,
+                                                         const Affine& M_BN);
+
 /// Declared mass of the node (kept under scale, inertia deformed with M_BN); else derived at `density`
 /// [kg/m^3] from its shapes, or its closed meshes, or their bounding boxes, and those of unbound nodes below.
 /// Declared masses of unbound nodes below are added. A declared mass without inertia is given that of the

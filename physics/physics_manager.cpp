@@ -256,6 +256,7 @@ const DeflectorManager& PhysicsManager::deflectors() const noexcept { return imp
 void PhysicsManager::set_integrator(std::unique_ptr<Integrator> integrator) {
   PANTIN_EXPECTS(integrator != nullptr, "no integrator given; known names are those of integrator_names()");
   impl_->integrator = std::move(integrator);
+  impl_->particles.integrator_of_bodies_changed();
 }
 
 const Integrator& PhysicsManager::integrator() const noexcept { return *impl_->integrator; }

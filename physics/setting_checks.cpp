@@ -74,6 +74,12 @@ std::optional<SettingsProblem> must_be_unit(const SettingName& name, const Quate
   return problem(ProblemCode::NotUnit, name, text, "of unit length");
 }
 
+std::optional<SettingsProblem> must_be_unit(const SettingName& name, const Vector3& value) {
+  if (!value.allFinite()) return must_be_finite(name, value);
+  if (std::abs(value.norm() - 1) <= kUnitTolerance) return std::nullopt;
+  return problem(ProblemCode::NotUnit, name, text_of(value), "of unit length");
+}
+
 std::optional<SettingsProblem> first_problem(std::initializer_list<std::optional<SettingsProblem>> checks) {
   for (const std::optional<SettingsProblem>& check : checks) {
     if (check) return check;

@@ -32,6 +32,7 @@ struct SettingName {
 [[nodiscard]] std::optional<SettingsProblem> must_be_positive(const SettingName& name, double value);
 /// NotFinite, or NotUnit where the length differs from 1 by more than 1e-9.
 [[nodiscard]] std::optional<SettingsProblem> must_be_unit(const SettingName& name, const Quaternion& value);
+[[nodiscard]] std::optional<SettingsProblem> must_be_unit(const SettingName& name, const Vector3& value);
 
 /// The first problem of a list of checks; nothing where all hold.
 [[nodiscard]] std::optional<SettingsProblem> first_problem(

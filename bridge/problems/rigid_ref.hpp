@@ -28,14 +28,15 @@ namespace pantin {
 
 /// What became of a problem's parts.
 struct ReferenceInstance {
-  std::map<std::string, BodyId, std::less<>> bodies{};  ///< kinematic ones included
+  std::map<std::string, BodyId, std::less<>> bodies{};         ///< kinematic ones included
+  std::map<std::string, ParticleId, std::less<>> particles{};  ///< each in a system of its own
   std::map<std::string, JointId, std::less<>> joints{};
   std::vector<ForceId> forces{};  ///< gravity first unless it is zero, then as in the problem
 };
 
 /// Builds the problem in `physics`, beside what is there; its time should be 0. Joint values are zero in the
-/// start pose. What physics does not know yet (particles, contacts, central gravity, quadratic drag, closed
-/// loops) is refused by name, and then nothing at all is built.
+/// start pose. What physics does not know yet (contacts, closed loops) is refused by name, and then nothing
+/// at all is built.
 [[nodiscard]] Loaded<ReferenceInstance> instantiate(const ReferenceProblem& problem, PhysicsManager& physics);
 
 }  // namespace pantin

@@ -161,6 +161,7 @@ class Checker {
       if (good && !moves_freely(spring->a.body) && !moves_freely(spring->b.body)) {
         error(pointer, subject, "has no end on a body that moves freely", "fasten one end to one");
       }
+      check_particle_ends(*spring, pointer, subject);
       not_negative(spring->stiffness, "stiffness");
       not_negative(spring->damping, "damping");
       not_negative(spring->rest_length, "rest_length");
@@ -171,6 +172,19 @@ class Checker {
       not_negative(drag->coefficient, "coefficient");
     } else {
       on(std::get<CentralGravity>(force).body, true);
+    }
+  }
+
+  void check_particle_ends(const Spring& spring, const std::string& pointer, const std::string& subject) {
+    const auto is_particle = [&](const SpringEnd& end) {
+      return index_.find(end.body).kind == NameKind::Particle;
+    };
+    if (is_particle(spring.a) && spring.a.body == spring.b.body) {
+      error(pointer, subject, "joins particle '" + spring.a.body + "' with itself", "name two ends");
+    }
+    for (const SpringEnd* end : {&spring.a, &spring.b}) {
+      expect(!is_particle(*end) || end->point.isZero(0), pointer + (end == &spring.a ? "/a" : "/b"), subject,
+             "is fastened beside particle '" + end->body + "', which is a point", "leave point_body_cog out");
     }
   }
 

@@ -6,10 +6,13 @@
 #include <pantin/physics/constraints/fixed.hpp>
 #include <pantin/physics/constraints/pivot.hpp>
 #include <pantin/physics/constraints/slider.hpp>
+#include <pantin/physics/forces/central_attraction.hpp>
 #include <pantin/physics/forces/constant_load.hpp>
 #include <pantin/physics/forces/damped_spring.hpp>
 #include <pantin/physics/forces/gravity.hpp>
 #include <pantin/physics/forces/linear_drag.hpp>
+#include <pantin/physics/forces/particle_springs.hpp>
+#include <pantin/physics/forces/quadratic_drag.hpp>
 
 #include "problem_index.hpp"
 
@@ -65,23 +68,10 @@ void find_loops(const Problem& problem, const ProblemIndex& index, std::vector<D
 std::vector<Diagnostic> unsupported_parts(const Problem& problem) {
   std::vector<Diagnostic> ledger;
   const ProblemIndex index{problem};
-  for (std::size_t i = 0; i < problem.particles.size(); ++i) {
-    ledger.push_back(unsupported(problem, "/particles/" + std::to_string(i),
-                                 "particle '" + problem.particles[i].name + "'",
-                                 "physics has no particles yet", "give it as a body with an inertia"));
-  }
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     ledger.push_back(unsupported(problem, "/contacts/" + std::to_string(i),
                                  "contact " + type_name(problem.contacts[i]), "physics has no contacts yet",
                                  "leave it out if the bodies never touch"));
-  }
-  for (std::size_t i = 0; i < problem.forces.size(); ++i) {
-    const Force& force = problem.forces[i];
-    const auto* drag = std::get_if<Drag>(&force);
-    if (std::holds_alternative<CentralGravity>(force) || (drag != nullptr && drag->quadratic)) {
-      ledger.push_back(unsupported(problem, "/forces/" + std::to_string(i), "force " + type_name(force),
-                                   "physics has no such law yet", "add it as a ForceLaw of your own"));
-    }
   }
   find_loops(problem, index, ledger);
   return ledger;
@@ -96,10 +86,11 @@ class Builder {
   ReferenceInstance build() {
     for (const KinematicBody& body : problem_.kinematic_bodies) add(body);
     for (const Body& body : problem_.bodies) add(body);
+    for (const Particle& particle : problem_.particles) add(particle);
     for (const Joint& joint : problem_.joints) add(joint);
     if (!problem_.gravity.isZero(0))
       built_.forces.push_back(physics_.forces().add(Gravity{problem_.gravity}));
-    for (const Force& force : problem_.forces) add(force);
+    for (const Force& force : problem_.forces) std::visit([this](const auto& law) { add(law); }, force);
     return built_;
   }
 
@@ -119,6 +110,18 @@ class Builder {
                                                          .inertia_check = InertiaCheck::Solvable}));
   }
 
+  /// Each particle is a system of its own, so that laws can be meant for it alone.
+  void add(const Particle& particle) {
+    const ParticleSystemId system = physics_.particles().add(
+        ParticleSystemSettings{.name = particle.name, .mass = particle.mass, .capacity = 1});
+    built_.particles.emplace(particle.name, physics_.particles().add_particle(
+                                                system, {.p_WP = particle.p_W, .v_WP = particle.v_W}));
+  }
+
+  [[nodiscard]] ParticleId particle_of(const std::string& name) const {
+    const auto found = built_.particles.find(name);
+    return found == built_.particles.end() ? ParticleId{} : found->second;
+  }
   [[nodiscard]] BodyId id_of(const std::string& name) const {
     const auto found = built_.bodies.find(name);
     return found == built_.bodies.end() ? BodyId{} : found->second;  // the world
@@ -167,21 +170,54 @@ class Builder {
     return {id_of(end.body), problem_.bodies[entry.position].mass.p_BBcm + end.point};
   }
 
-  void add(const Force& force) {
-    if (const auto* spring = std::get_if<Spring>(&force)) {
-      built_.forces.push_back(physics_.forces().add(DampedSpring{.a = attachment(spring->a),
-                                                                 .b = attachment(spring->b),
-                                                                 .stiffness = spring->stiffness,
-                                                                 .damping = spring->damping,
-                                                                 .rest_length = spring->rest_length}));
-    } else if (const auto* torque = std::get_if<ConstantTorque>(&force)) {
-      built_.forces.push_back(
-          physics_.forces().add(ConstantLoad{.body = id_of(torque->body), .torque = torque->torque_W}));
-    } else if (const auto* drag = std::get_if<Drag>(&force)) {
-      built_.forces.push_back(physics_.forces().add(LinearDrag{.body = id_of(drag->body),
-                                                               .coefficient = drag->coefficient,
-                                                               .medium_velocity = drag->medium_velocity}));
+  template <class Settings>
+  void add_law(const Settings& settings) {
+    built_.forces.push_back(physics_.forces().add(settings));
+  }
+
+  void add(const Spring& spring) {
+    const ParticleId a = particle_of(spring.a.body), b = particle_of(spring.b.body);
+    if (!a && !b) {
+      add_law(DampedSpring{.a = attachment(spring.a),
+                           .b = attachment(spring.b),
+                           .stiffness = spring.stiffness,
+                           .damping = spring.damping,
+                           .rest_length = spring.rest_length});
+      return;
     }
+    ParticleSpring tie{.a = a ? a : b,
+                       .stiffness = spring.stiffness,
+                       .damping = spring.damping,
+                       .rest_length = spring.rest_length};
+    if (a && b) {
+      tie.b = b;
+    } else {
+      tie.anchor = attachment(a ? spring.b : spring.a);
+    }
+    add_law(ParticleSprings{.springs = {tie}});
+  }
+
+  template <class Settings>
+  void add_to_target(Settings settings, const std::string& name) {
+    settings.body = id_of(name);
+    settings.particles = particle_of(name).system;
+    add_law(settings);
+  }
+
+  void add(const Drag& drag) {
+    if (drag.quadratic) {
+      add_to_target(QuadraticDrag{.coefficient = drag.coefficient, .medium_velocity = drag.medium_velocity},
+                    drag.body);
+    } else {
+      add_to_target(LinearDrag{.coefficient = drag.coefficient, .medium_velocity = drag.medium_velocity},
+                    drag.body);
+    }
+  }
+  void add(const ConstantTorque& torque) {
+    add_law(ConstantLoad{.body = id_of(torque.body), .torque = torque.torque_W});
+  }
+  void add(const CentralGravity& gravity) {
+    add_to_target(CentralAttraction{.centre = {.p_BQ = gravity.center}, .mu = gravity.mu}, gravity.body);
   }
 
   const Problem& problem_;
@@ -207,6 +243,7 @@ std::vector<Diagnostic> singular_parts(const Problem& problem, const ReferenceIn
 void take_out(const ReferenceInstance& built, PhysicsManager& physics) {
   for (const ForceId force : built.forces) physics.forces().remove(force);
   for (const auto& [name, joint] : built.joints) physics.remove(joint);
+  for (const auto& [name, particle] : built.particles) physics.particles().remove(particle.system);
   for (const auto& [name, body] : built.bodies) physics.remove(body);
 }
 

@@ -1,5 +1,6 @@
 #include <pantin/physics/forces/linear_drag.hpp>
 
+#include <pantin/physics/forces/force_target.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -24,8 +25,7 @@ class LinearDragLaw final : public ForceLaw {
   }
 
   ParticleAction acts_on(ParticleSystemId system) const override {
-    const bool acts = settings_.particles ? settings_.particles == system : !settings_.body;
-    return acts ? ParticleAction::Each : ParticleAction::None;
+    return ForceTarget{settings_.body, settings_.particles}.each_of(system);
   }
 
   void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {
@@ -58,12 +58,8 @@ class LinearDragLaw final : public ForceLaw {
 }  // namespace
 
 std::optional<SettingsProblem> problem_with(const LinearDrag& settings) {
-  if (settings.body && settings.particles) {
-    return SettingsProblem{ProblemCode::OutOfRange,
-                           "linear drag: both a body and a particle system are named",
-                           "name one of them, or add two laws"};
-  }
-  return first_problem({must_not_be_negative({"linear drag", "coefficient", "N s/m"}, settings.coefficient),
+  return first_problem({target_problem("linear drag", settings.body, settings.particles),
+                        must_not_be_negative({"linear drag", "coefficient", "N s/m"}, settings.coefficient),
                         must_not_be_negative({"linear drag", "angular coefficient", "N m s/rad"},
                                              settings.angular_coefficient),
                         must_be_finite({"linear drag", "medium velocity", "m/s"}, settings.medium_velocity)});

@@ -13,29 +13,34 @@ namespace {
 
 class ParticleSpringsLaw final : public ForceLaw {
  public:
-  explicit ParticleSpringsLaw(const ParticleSprings& settings) : settings_{settings} {}
+  explicit ParticleSpringsLaw(const ParticleSprings& settings) : settings_{settings} {
+    for (const ParticleSpring& spring : settings_.springs) {
+      for (const ParticleId& end : {spring.a, spring.b}) {
+        if (end && acts_on(end.system) == ParticleAction::None) systems_.push_back(end.system);
+      }
+    }
+  }
 
   void add_wrenches(const BodiesAt&, std::span<Wrench>) const override {}
 
   ParticleAction acts_on(ParticleSystemId system) const override {
-    return system == settings_.system ? ParticleAction::Coupled : ParticleAction::None;
+    const bool acts = std::find(systems_.begin(), systems_.end(), system) != systems_.end();
+    return acts ? ParticleAction::Coupled : ParticleAction::None;
   }
 
   void add_coupled_forces(const BodiesAt& bodies, std::span<Wrench> wrenches,
                           std::span<const CoupledParticles> systems) const override {
-    const CoupledParticles* system = own(systems);
-    if (system == nullptr) return;
     for (const ParticleSpring& spring : settings_.springs) {
       Ends ends;
-      if (!find(*system, bodies, spring, ends)) continue;
+      if (!find(systems, bodies, spring, ends)) continue;
       const double length = ends.d.stableNorm();
       if (length == 0) continue;
       const Vector3 n = ends.d / length;
       const Vector3 pull =
           (spring.stiffness * (length - spring.rest_length) + spring.damping * n.dot(ends.d_rate)) * n;
-      add(*system, ends.a, pull);
+      ends.a.system->force.add(ends.a.position, pull);
       if (spring.b) {
-        add(*system, ends.b, -pull);
+        ends.b.system->force.add(ends.b.position, -pull);
       } else if (spring.anchor.body) {
         add_force_at(bodies, bodies.index(spring.anchor.body), ends.p_b, -pull, wrenches);
       }
@@ -43,12 +48,10 @@ class ParticleSpringsLaw final : public ForceLaw {
   }
 
   double coupled_energy(const BodiesAt& bodies, std::span<const CoupledParticles> systems) const override {
-    const CoupledParticles* system = own(systems);
-    if (system == nullptr) return 0;
     double sum = 0;
     for (const ParticleSpring& spring : settings_.springs) {
       Ends ends;
-      if (!find(*system, bodies, spring, ends)) continue;
+      if (!find(systems, bodies, spring, ends)) continue;
       const double stretch = ends.d.stableNorm() - spring.rest_length;
       sum += 0.5 * spring.stiffness * stretch * stretch;
     }
@@ -67,59 +70,59 @@ class ParticleSpringsLaw final : public ForceLaw {
   }
 
  private:
+  /// A particle in the arrays of its system; no system = it is not there.
+  struct End {
+    const CoupledParticles* system{nullptr};
+    std::size_t position{0};
+  };
   struct Ends {
-    std::size_t a{0}, b{0};
+    End a{}, b{};
     Vector3 p_b{Vector3::Zero()}, d{Vector3::Zero()}, d_rate{Vector3::Zero()};
   };
 
-  const CoupledParticles* own(std::span<const CoupledParticles> systems) const {
+  static End find(std::span<const CoupledParticles> systems, ParticleId id) {
     for (const CoupledParticles& system : systems) {
-      if (system.at.system == settings_.system) return &system;
+      if (system.at.system != id.system) continue;
+      const std::size_t i = system.position_of(id.serial);
+      return i < system.at.size() ? End{&system, i} : End{};
     }
-    return nullptr;
+    return {};
   }
 
-  static PointKinematics point(const ParticlesAt& at, std::size_t i) {
-    return {{at.x[i], at.y[i], at.z[i]}, {at.vx[i], at.vy[i], at.vz[i]}};
+  static PointKinematics point(const End& end) {
+    return {end.system->at.p_WP(end.position), end.system->at.v_WP(end.position)};
   }
 
   /// False where a particle is gone.
-  static bool find(const CoupledParticles& system, const BodiesAt& bodies, const ParticleSpring& spring,
-                   Ends& ends) {
-    ends.a = system.position_of(spring.a.serial);
-    ends.b = spring.b ? system.position_of(spring.b.serial) : 0;
-    if (ends.a == system.at.size() || ends.b == system.at.size()) return false;
-    const PointKinematics a = point(system.at, ends.a);
-    const PointKinematics b = spring.b ? point(system.at, ends.b) : point_at(bodies, spring.anchor);
+  static bool find(std::span<const CoupledParticles> systems, const BodiesAt& bodies,
+                   const ParticleSpring& spring, Ends& ends) {
+    ends.a = find(systems, spring.a);
+    if (spring.b) ends.b = find(systems, spring.b);
+    if (ends.a.system == nullptr || (spring.b && ends.b.system == nullptr)) return false;
+    const PointKinematics a = point(ends.a);
+    const PointKinematics b = spring.b ? point(ends.b) : point_at(bodies, spring.anchor);
     ends.p_b = b.p_WQ;
     ends.d = b.p_WQ - a.p_WQ;
     ends.d_rate = b.v_WQ - a.v_WQ;
     return true;
   }
 
-  static void add(const CoupledParticles& system, std::size_t i, const Vector3& f) {
-    system.force.x[i] += f.x();
-    system.force.y[i] += f.y();
-    system.force.z[i] += f.z();
-  }
-
   ParticleSprings settings_;
+  std::vector<ParticleSystemId> systems_{};  // each once
 };
 
 }  // namespace
 
 std::optional<SettingsProblem> problem_with(const ParticleSprings& settings) {
-  if (!settings.system || settings.springs.empty()) {
-    return SettingsProblem{ProblemCode::UnknownEntity, "particle springs: there is no system, or no spring",
-                           "name a particle system and give springs"};
+  if (settings.springs.empty()) {
+    return SettingsProblem{ProblemCode::OutOfRange, "particle springs: there is no spring", "give springs"};
   }
   for (std::size_t k = 0; k < settings.springs.size(); ++k) {
     const ParticleSpring& spring = settings.springs[k];
     const std::string subject = "particle spring " + std::to_string(k);
-    if (spring.a.system != settings.system || (spring.b && spring.b.system != settings.system)) {
-      return SettingsProblem{ProblemCode::UnknownEntity,
-                             subject + ": an end is no particle of the law's system",
-                             "give particles of one system"};
+    if (!spring.a) {
+      return SettingsProblem{ProblemCode::UnknownEntity, subject + ": end a is no particle",
+                             "give a particle as end a"};
     }
     if (spring.a == spring.b) {
       return SettingsProblem{ProblemCode::OutOfRange, subject + ": both ends are one particle",

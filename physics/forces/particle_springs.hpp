@@ -1,8 +1,8 @@
 #pragma once
-// Damped springs between particles of one system, or from particles to points of bodies or of the world:
-// tension = k (l - l0) + c dl/dt along the line that joins the ends, as DampedSpring. All springs are one
-// law, so a net costs one call. The system is integrated together with the bodies, by their integrator and at
-// its order.
+// Damped springs between particles, of one system or several, or from particles to points of bodies or of the
+// world: tension = k (l - l0) + c dl/dt along the line that joins the ends, as DampedSpring. All springs are
+// one law, so a net costs one call. Their systems are integrated together with the bodies, by their
+// integrator and at its order.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,8 +14,8 @@ namespace pantin {
 
 /// One spring of the net. Where an end's particle is gone, it pulls no more.
 struct ParticleSpring {
-  ParticleId a{};         ///< of the system of the law
-  ParticleId b{};         ///< of the same system; null = the other end is `anchor`
+  ParticleId a{};
+  ParticleId b{};         ///< null = the other end is `anchor`
   Attachment anchor{};    ///< a point of a body, or of the world
   double stiffness{0};    ///< k [N/m], >= 0
   double damping{0};      ///< c [N s/m], >= 0
@@ -23,7 +23,6 @@ struct ParticleSpring {
 };
 
 struct ParticleSprings {
-  ParticleSystemId system{};
   std::vector<ParticleSpring> springs{};  ///< at least one
 };
 

@@ -1,6 +1,7 @@
 // All integrators that can be chosen by name. A new one is one line here.
 #include <array>
 #include <string>
+#include <utility>
 
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/euler.hpp>
@@ -36,6 +37,11 @@ std::unique_ptr<Integrator> make_integrator(std::string_view name) {
     if (entry.name == name) return entry.make();
   }
   return nullptr;
+}
+
+std::unique_ptr<Integrator> Integrator::another() const {
+  std::unique_ptr<Integrator> made = make_integrator(name());
+  return made != nullptr ? std::move(made) : make_rk4();
 }
 
 std::vector<std::string> integrator_names() {

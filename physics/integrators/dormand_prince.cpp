@@ -51,6 +51,7 @@ class DormandPrince final : public Integrator {
   int order() const override { return 5; }
   int evaluations(const Dynamics&) const override { return kStages; }
   StepControl* control() override { return &control_; }
+  std::unique_ptr<Integrator> another() const override { return make_dormand_prince(settings_); }
 
   void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {
     expect_step(dynamics, t, h, q, v);

@@ -101,6 +101,9 @@ class Integrator {
   /// From t to t + h, h > 0. The derivative is asked with Side::After at t and Side::Before at later times. q
   /// and v are settled at the end.
   virtual void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) = 0;
+  /// A new one of the same kind and settings. Unless told otherwise, by name from the catalogue; rk4 for a
+  /// name that is not there.
+  [[nodiscard]] virtual std::unique_ptr<Integrator> another() const;
   /// Its own control of steps; null if it takes the steps it is asked for.
   [[nodiscard]] virtual StepControl* control() { return nullptr; }
 };

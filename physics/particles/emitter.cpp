@@ -4,42 +4,25 @@
 #include <numbers>
 #include <string>
 
+#include <pantin/physics/random_draws.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
 namespace {
 
-/// Random numbers as a function of seed, particle and draw: the finaliser of splitmix64 (G. Steele, D. Lea,
-/// C. Flood, OOPSLA 2014) over a counter.
-class Draws {
- public:
-  Draws(std::uint64_t seed, std::uint64_t n) : state_{mixed(mixed(seed) + n)} {}
-  double operator()() {  // in [0, 1)
-    state_ += 0x9e3779b97f4a7c15ull;
-    return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
-  }
-  double operator()(const Range& range) {
-    const double u = (*this)();
-    return range.least == range.most ? range.least : range.least + u * (range.most - range.least);
-  }
-
- private:
-  static std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-    return x ^ (x >> 31);
-  }
-  std::uint64_t state_;
-};
+double between(RandomDraws& draw, const Range& range) {
+  const double u = draw();
+  return range.least == range.most ? range.least : range.least + u * (range.most - range.least);
+}
 
 /// Evenly over the cap of the unit sphere around z whose cosine is at least `lowest`.
-Vector3 direction(Draws& draw, double lowest) {
+Vector3 direction(RandomDraws& draw, double lowest) {
   const double z = 1 - draw() * (1 - lowest), phi = 2 * std::numbers::pi * draw();
   const double r = std::sqrt(std::max(0.0, 1 - z * z));
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-Vector3 place(Draws& draw, const EmitterSettings& settings) {
+Vector3 place(RandomDraws& draw, const EmitterSettings& settings) {
   switch (settings.region) {
     case EmitterRegion::Point:
       return Vector3::Zero();
@@ -119,12 +102,12 @@ std::optional<SettingsProblem> problem_with(const EmitterSettings& settings) {
 }
 
 Birth birth_of(const EmitterSettings& settings, std::uint64_t n) {
-  Draws draw{settings.seed, n};
+  RandomDraws draw{settings.seed, n};
   Birth birth;
   birth.p_EP = place(draw, settings);
   const Vector3 to = direction(draw, std::cos(settings.spread));
-  birth.v_EP = draw(settings.speed) * to;
-  birth.lifetime = draw(settings.lifetime);
+  birth.v_EP = between(draw, settings.speed) * to;
+  birth.lifetime = between(draw, settings.lifetime);
   return birth;
 }
 

@@ -13,8 +13,19 @@ double ParticleManager::Impl::coupled_energy() {
   }
   if (!any) return 0;
   views.clear();
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < systems.size(); ++k) count += state(k).size();
+  masses.resize(count);
+  std::span<double> left{masses};
   for (std::size_t k = 0; k < systems.size(); ++k) {
     const ParticleSystemState& now = state(k);
+    const std::span<double> mass = left.first(now.size());
+    left = left.subspan(now.size());
+    if (now.mass.empty()) {
+      std::fill(mass.begin(), mass.end(), systems[k].settings.mass);
+    } else {
+      std::copy(now.mass.begin(), now.mass.end(), mass.begin());
+    }
     views.push_back({{.t = bodies.state.time,
                       .system = now.id,
                       .x = now.now.x,
@@ -22,7 +33,8 @@ double ParticleManager::Impl::coupled_energy() {
                       .z = now.now.z,
                       .vx = now.now.vx,
                       .vy = now.now.vy,
-                      .vz = now.now.vz},
+                      .vz = now.now.vz,
+                      .mass = mass},
                      {},
                      now.serial});
   }

@@ -58,9 +58,9 @@ class ParticleManager {
   void pin(ParticleId id, const Attachment& to);
   void unpin(ParticleId id);
 
-  /// The integrator of systems that are neither tied nor coupled with bodies. Unless set, it is one of the
-  /// same name as the bodies', with its default settings. One that chooses its steps does so batch by batch
-  /// (ParticleBlock::kMost particles).
+  /// The integrator of systems that are neither tied nor coupled with bodies. Unless set (null unsets), it is
+  /// another of the bodies', its tolerance included. One that chooses its steps does so batch by batch
+  /// (ParticleBlock::kMost particles), from the whole step on.
   void set_integrator(std::unique_ptr<Integrator> integrator);
 
   /// Kinetic and potential energy of all particles at the state reached [J].
@@ -70,6 +70,7 @@ class ParticleManager {
   [[nodiscard]] bool fits(std::span<const ParticleSystemState> states) const;  ///< same systems and emitters
   void reserve_again();             ///< after the state was replaced
   void remove_all_of(BodyId body);  ///< emitters and pins on it
+  void integrator_of_bodies_changed();
   void begin_step();
   /// Before the bodies move: gathers what is integrated with them. Null = the bodies go alone.
   [[nodiscard]] Dynamics* begin_update();

@@ -15,6 +15,10 @@ void ParticleManager::set_integrator(std::unique_ptr<Integrator> integrator) {
   impl_->integrator_is_given = impl_->integrator != nullptr;
 }
 
+void ParticleManager::integrator_of_bodies_changed() {
+  if (!impl_->integrator_is_given) impl_->integrator.reset();
+}
+
 ParticleId ParticleManager::not_finite() const noexcept { return impl_->not_finite; }
 
 void ParticleManager::begin_step() {
@@ -41,11 +45,7 @@ void ParticleManager::bodies_have_moved() { impl_->coupled.end(); }
 bool ParticleManager::update(double t, double h, const Integrator& integrator_of_bodies) {
   Impl& world = *impl_;
   if (world.systems.empty()) return true;
-  if (!world.integrator_is_given &&
-      (world.integrator == nullptr || world.integrator->name() != integrator_of_bodies.name())) {
-    world.integrator = make_integrator(integrator_of_bodies.name());
-    if (world.integrator == nullptr) world.integrator = make_integrator("rk4");
-  }
+  if (world.integrator == nullptr) world.integrator = integrator_of_bodies.another();
   world.deflectors.end(h);
   for (std::size_t k = 0; k < world.systems.size(); ++k) {
     if (!world.advance(k, t, h)) return false;

@@ -6,6 +6,7 @@
 
 #include <pantin/physics/driver.hpp>
 #include <pantin/physics/ids.hpp>
+#include <pantin/physics/pose.hpp>
 
 namespace pantin {
 
@@ -23,11 +24,19 @@ struct ParticlesAt {
   std::span<const double> mass{};            ///< [kg]
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
+  [[nodiscard]] Vector3 p_WP(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  [[nodiscard]] Vector3 v_WP(std::size_t i) const { return {vx[i], vy[i], vz[i]}; }
 };
 
 /// Forces on the particles of a batch [N], in W; laws add to them.
 struct ParticleForces {
   std::span<double> x{}, y{}, z{};
+
+  void add(std::size_t i, const Vector3& f_W) const {
+    x[i] += f_W.x();
+    y[i] += f_W.y();
+    z[i] += f_W.z();
+  }
 };
 
 /// Which particles a force law acts on, and how.

@@ -46,11 +46,7 @@ inline nlohmann::json good() {
 /// The same without what physics cannot hold.
 inline nlohmann::json buildable() {
   nlohmann::json problem = good();
-  problem["particles"] = nlohmann::json::array();
   problem["contacts"] = nlohmann::json::array();
-  problem["forces"].erase(4);
-  problem["forces"].erase(3);
-  problem["samples"][1]["state"].erase("p");
   return problem;
 }
 

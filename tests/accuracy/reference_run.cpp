@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pantin/physics/integrators/dormand_prince.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -51,6 +53,13 @@ double energy_scale(const ReferenceProblem& problem) {
 void compare(const reference::Sample& sample, const ReferenceInstance& built, const PhysicsManager& physics,
              double scale, RunErrors& errors) {
   for (const reference::BodySample& expected : sample.bodies) {
+    if (const auto particle = built.particles.find(expected.name); particle != built.particles.end()) {
+      const ParticleSystem system = physics.particles().system(particle->second.system);
+      ++errors.compared;
+      if (expected.p_WBcm)
+        errors.position = std::max(errors.position, (system.p_WP(0) - *expected.p_WBcm).norm());
+      continue;
+    }
     const RigidBody body = physics.body(built.bodies.find(expected.name)->second);
     ++errors.compared;
     if (expected.p_WBcm) {
@@ -60,8 +69,8 @@ void compare(const reference::Sample& sample, const ReferenceInstance& built, co
       errors.attitude = std::max(errors.attitude, attitude_error(body.q_WB(), *expected.q_WB));
   }
   if (sample.energy) {
-    errors.energy =
-        std::max(errors.energy, std::abs(physics.energy().total() - sample.energy->total) / scale);
+    const double total = physics.energy().total() + physics.particles().energy().total();
+    errors.energy = std::max(errors.energy, std::abs(total - sample.energy->total) / scale);
   }
   const JointDrift drift = physics.joint_drift();
   errors.joint_drift = std::max({errors.joint_drift, drift.distance, drift.angle});
@@ -72,7 +81,11 @@ void compare(const reference::Sample& sample, const ReferenceInstance& built, co
 RunErrors run(const ReferenceProblem& problem, const RunSettings& settings) {
   RunErrors errors;
   PhysicsManager physics;
-  physics.set_integrator(make_integrator(settings.integrator));
+  if (settings.tolerance) {
+    physics.set_integrator(make_dormand_prince({.tolerance = *settings.tolerance}));
+  } else {
+    physics.set_integrator(make_integrator(settings.integrator));
+  }
   const Loaded<ReferenceInstance> built = instantiate(problem, physics);
   if (!built.value) {
     errors.failure = lines(built.notes);

@@ -11,16 +11,17 @@
 namespace pantin::test {
 
 struct RunSettings {
-  std::string integrator{"rk4"};  ///< a name of the catalogue
-  double step{1e-3};              ///< > 0 [s]; shortened so that samples are hit exactly
-  int refinement{1};              ///< cuts every step into so many equal ones
+  std::string integrator{"rk4"};      ///< a name of the catalogue
+  std::optional<double> tolerance{};  ///< dormand-prince with this one [m/s], [rad/s] instead
+  double step{1e-3};                  ///< > 0 [s]; shortened so that samples are hit exactly
+  int refinement{1};                  ///< cuts every step into so many equal ones
   double until{
       std::numeric_limits<double>::infinity()};  ///< last sample that counts [s]; never after the duration
 };
 
 /// Maxima over samples and bodies.
 struct RunErrors {
-  double position{0};       ///< distance of the centres of gravity [m]
+  double position{0};       ///< distance of the centres of gravity, and of particles [m]
   double attitude{0};       ///< attitude_error [rad]
   double energy{0};         ///< of the total, relative to the greatest energy in the samples
   double joint_drift{0};    ///< [m] or [rad], whichever is greater

@@ -48,6 +48,19 @@ TEST(ReferenceRun, MeasuresWhatASampleIsOffBy) {
   EXPECT_NEAR(errors.attitude, 0.2, 1e-15);
 }
 
+TEST(ReferenceRun, ComparesParticlesAndTheirEnergy) {
+  // A particle in uniform motion is 5 mm off one of its samples, and its 2 J off the stated 1 J.
+  ReferenceProblem problem{.name = "made up", .duration = 1};
+  problem.particles.push_back({.name = "p", .mass = 1, .v_W = {2, 0, 0}});
+  problem.samples.push_back({.t = 0.5, .bodies = {{.name = "p", .p_WBcm = Vector3{1, 3e-3, 4e-3}}}});
+  problem.samples.push_back({.t = 1, .energy = reference::SampleEnergy{.kinetic = 1, .total = 1}});
+  const RunErrors errors = run(problem, {.step = 0.3});
+  EXPECT_EQ(errors.failure, "");
+  EXPECT_EQ(errors.compared, 1u);
+  EXPECT_NEAR(errors.position, 5e-3, 1e-15);
+  EXPECT_NEAR(errors.energy, 1, 1e-14);
+}
+
 TEST(ReferenceRun, StopsAtTheLastSampleThatCounts) {
   // The wrong sample lies behind the end.
   ReferenceProblem problem = wrong_by(Vector3::Zero(), 0);
@@ -58,10 +71,10 @@ TEST(ReferenceRun, StopsAtTheLastSampleThatCounts) {
 }
 
 TEST(ReferenceRun, TellsWhyAProblemCannotBeBuilt) {
-  // A particle is refused; the reason is not lost.
-  ReferenceProblem problem{.name = "made up", .duration = 1};
-  problem.particles.push_back({.name = "p"});
-  EXPECT_NE(run(problem, {}).failure.find("particle 'p'"), std::string::npos);
+  // A contact is refused; the reason is not lost.
+  ReferenceProblem problem = wrong_by(Vector3::Zero(), 0);
+  problem.contacts.push_back({.pair = reference::SphereOnPlane{.body = "b", .radius = 1}});
+  EXPECT_NE(run(problem, {}).failure.find("contact sphere_plane"), std::string::npos);
 }
 
 }  // namespace

@@ -154,6 +154,19 @@ INSTANTIATE_TEST_SUITE_P(
                 "/forces/0: error: force spring_damper_point_to_point: has no end on a body that moves "
                 "freely; fasten "
                 "one end to one"},
+        BadFile{"SpringFromAParticleToItself",
+                [](json& p) {
+                  p["forces"][0]["a"] = {{"body", "p"}};
+                  p["forces"][0]["b"] = {{"body", "p"}};
+                },
+                "/forces/0: error: force spring_damper_point_to_point: joins particle 'p' with itself; name "
+                "two ends"},
+        BadFile{"SpringBesideAParticle",
+                [](json& p) {
+                  p["forces"][0]["b"] = {{"body", "p"}, {"point_body_cog", {1, 0, 0}}};
+                },
+                "/forces/0/b: error: force spring_damper_point_to_point: is fastened beside particle 'p', "
+                "which is a point; leave point_body_cog out"},
         BadFile{"SpringWithoutEnd", [](json& p) { p["forces"][0].erase("b"); },
                 "/forces/0/b: error: force spring_damper_point_to_point: 'b' is missing; name a body, or the "
                 "world and "

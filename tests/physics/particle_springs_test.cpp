@@ -26,7 +26,7 @@ struct Net {
           system,
           {.p_WP = {1.5 + i, 2.5, 3.0 - 0.3 * i}, .v_WP = {0.1 * i, 0.5, -0.2}, .mass = 0.2 + 0.1 * i});
     }
-    ParticleSprings net{.system = system};
+    ParticleSprings net;
     for (int i = 0; i < 3; ++i) {
       const double k = 20 + 5 * i;
       net.springs.push_back({.a = ids[i],
@@ -124,13 +124,12 @@ TEST(ParticleSprings, SayWhatIsWrongWithTheirSettings) {
   // One text a rule.
   Net net;
   const auto add = [&](ParticleSpring spring) {
-    return [&net, spring] {
-      net.physics.forces().add(ParticleSprings{.system = net.system, .springs = {spring}});
-    };
+    return [&net, spring] { net.physics.forces().add(ParticleSprings{.springs = {spring}}); };
   };
-  expect_contract([&] { net.physics.forces().add(ParticleSprings{}); }, "there is no system, or no spring");
+  expect_contract([&] { net.physics.forces().add(ParticleSprings{}); },
+                  "particle springs: there is no spring");
   expect_contract(add({.a = net.ids[0], .b = net.ids[0]}), "particle spring 0: both ends are one particle");
-  expect_contract(add({.a = {}}), "particle spring 0: an end is no particle of the law's system");
+  expect_contract(add({.a = {}}), "particle spring 0: end a is no particle");
   expect_contract(add({.a = net.ids[0], .stiffness = -1}), "particle spring 0: stiffness is -1 N/m");
 }
 

@@ -26,6 +26,7 @@ TEST(SettingChecks, PassWhatHolds) {
   EXPECT_FALSE(must_not_be_negative(kName, 0));
   EXPECT_FALSE(must_be_positive(kName, 5e-324));
   EXPECT_FALSE(must_be_unit(kName, Quaternion{0.6, 0, 0.8, 0}));
+  EXPECT_FALSE(must_be_unit(kName, Vector3{0.6, 0, 0.8}));
 }
 
 TEST(SettingChecks, NameSubjectValueUnitAndRule) {
@@ -45,6 +46,8 @@ TEST(SettingChecks, FindNaNBeforeTheyCompare) {
   EXPECT_EQ(must_be_finite(kName, Vector3{0, kNaN, 0})->code, ProblemCode::NotFinite);
   EXPECT_EQ(must_be_unit(kName, Quaternion{kNaN, 0, 0, 0})->code, ProblemCode::NotFinite);
   EXPECT_EQ(must_be_unit(kName, Quaternion{2, 0, 0, 0})->code, ProblemCode::NotUnit);
+  EXPECT_EQ(must_be_unit(kName, Vector3{kNaN, 0, 0})->code, ProblemCode::NotFinite);
+  EXPECT_EQ(must_be_unit(kName, Vector3{1, 1, 0})->code, ProblemCode::NotUnit);
 }
 
 TEST(SettingChecks, GiveTheFirstProblemOfAList) {
