@@ -30,6 +30,8 @@ struct ParticleReport {
   std::uint64_t stuck{0};        ///< began to stick to a deflector
   std::uint64_t unresolved{0};   ///< met more surfaces in the step than are followed (Sweep::kMostContacts)
   Energy energy{};               ///< of the particles alone [J]
+  int evaluations{0};            ///< of the derivatives of batches of particles
+  int inner_steps{0};            ///< that an adaptive integrator took for them, all batches together
   int constraint_iterations{0};  ///< most that a solve of ties took; 0 = none
   double constraint_error{0};    ///< greatest |length / rest - 1| of ties without compliance
   bool converged{true};          ///< whether every solve of ties reached its tolerance

@@ -66,7 +66,7 @@ class Run {
   }
 
   void run() {
-    energy_at_start_ = physics_.energy();
+    energy_at_start_ = energy_now();
     std::vector<double> times;
     for (const Sample& sample : problem_.samples) times.push_back(sample.t);
     if (times.empty()) times.push_back(problem_.duration);
@@ -93,8 +93,8 @@ class Run {
         result_.messages.push_back(report.message);
         return false;
       }
-      result_.steps += std::max(report.inner_steps, 1);
-      result_.evaluations += report.evaluations;
+      result_.steps += std::max(report.inner_steps + report.particles.inner_steps, 1);
+      result_.evaluations += report.evaluations + report.particles.evaluations;
       subdivided_ += settings_.step && report.inner_steps > 1 ? 1 : 0;
     }
     result_.cpu_seconds += cpu_now() - start;
@@ -103,6 +103,12 @@ class Run {
 
   void compare(const Sample& sample) {
     for (const BodySample& expected : sample.bodies) {
+      if (const auto particle = built_.particles.find(expected.name); particle != built_.particles.end()) {
+        const reference::Particle now = at(particle->second);
+        if (expected.p_WBcm) count(result_.position_error, (now.p_W - *expected.p_WBcm).norm());
+        if (expected.v_WBcm) count(result_.velocity_error, (now.v_W - *expected.v_WBcm).norm());
+        continue;
+      }
       const auto found = built_.bodies.find(expected.name);
       if (found == built_.bodies.end()) continue;
       const RigidBody body = physics_.body(found->second);
@@ -110,7 +116,7 @@ class Run {
       if (expected.q_WB) count(result_.attitude_error, attitude_error(body.q_WB(), *expected.q_WB));
       if (expected.v_WBcm) count(result_.velocity_error, (body.v_WBcm() - *expected.v_WBcm).norm());
     }
-    const Energy energy = physics_.energy();
+    const Energy energy = energy_now();
     if (sample.energy) {
       const reference::SampleEnergy& e = *sample.energy;
       for (const double part : {e.kinetic, e.potential_gravity, e.potential_elastic_or_central, e.total}) {
@@ -123,6 +129,20 @@ class Run {
     result_.joint_drift = std::max(result_.joint_drift, physics_.joint_drift().distance);
   }
 
+  [[nodiscard]] Energy energy_now() const {
+    Energy energy = physics_.energy();
+    const Energy particles = physics_.particles().energy();
+    energy.kinetic += particles.kinetic;
+    energy.potential += particles.potential;
+    return energy;
+  }
+
+  [[nodiscard]] reference::Particle at(ParticleId id) const {
+    const ParticleSystem system = physics_.particles().system(id.system);
+    const std::size_t i = system.position_of(id);
+    return {.mass = system.mass(i), .p_W = system.p_WP(i), .v_W = system.v_WP(i)};
+  }
+
   [[nodiscard]] SolvedState state() const {
     SolvedState now{.t = physics_.time()};
     for (const reference::Body& body : problem_.bodies) {
@@ -132,6 +152,10 @@ class Run {
                             .X_WB = {at.p_WBcm(), at.q_WB()},
                             .v_WBcm = at.v_WBcm(),
                             .w_WB = at.w_WB()});
+    }
+    for (const reference::Particle& particle : problem_.particles) {
+      now.particles.push_back(at(built_.particles.find(particle.name)->second));
+      now.particles.back().name = particle.name;
     }
     return now;
   }

@@ -49,6 +49,7 @@ class Gauss final : public Integrator {
   }
   int order() const override { return 2 * settings_.stages; }
   int evaluations(const Dynamics&) const override { return 2 * settings_.stages; }
+  std::unique_ptr<Integrator> another() const override { return make_gauss(settings_); }
   StepControl* control() override { return &control_; }
 
   void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {

@@ -38,7 +38,7 @@ void ParticleBlock::integrate(Integrator& integrator, double t, double h) {
   std::copy_n(v0_.begin(), 3 * n_, v_.begin());
   // An integrator that chooses its steps begins afresh in every batch: what it did elsewhere is no part of
   // State.
-  if (StepControl* control = integrator.control()) control->memory.next = 0;
+  if (StepControl* control = integrator.control()) control->memory = {};
   integrator.step(*this, t, h, {q_.data(), 3 * n_}, {v_.data(), 3 * n_});
 }
 
@@ -159,6 +159,7 @@ void ParticleBlock::rate(Instant, std::span<const double>, std::span<const doubl
 
 void ParticleBlock::acceleration(Instant at, std::span<const double> q, std::span<const double> v,
                                  std::span<double> v_dot) {
+  ++evaluations;
   std::fill(v_dot.begin(), v_dot.end(), 0.0);
   forces_.gather(view(at, q, v), {v_dot.subspan(0, n_), v_dot.subspan(n_, n_), v_dot.subspan(2 * n_, n_)});
   const double* inverse = inverse_mass_.data();

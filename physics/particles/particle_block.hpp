@@ -56,6 +56,8 @@ class ParticleBlock final : public Dynamics {
     return forces_.depends_on_velocity();
   }
 
+  int evaluations{0};  ///< of v' since it was last set to 0
+
  private:
   void find_near(Sweep& sweep, double s0, double h, double radius, std::span<const std::size_t> skip);
   [[nodiscard]] MovingParticle particle_at(std::size_t i, double s0, double h, double radius) const;

@@ -113,7 +113,10 @@ bool ParticleManager::Impl::move_batch(std::size_t k, std::size_t first, std::si
   if (!is_born && coupled.has(k)) {
     block.arrive(data.next, first);
   } else if (left > 0) {
+    block.evaluations = 0;
     block.integrate(*integrator, t + s0 * h, left);
+    report.evaluations += block.evaluations;
+    if (const StepControl* control = integrator->control()) report.inner_steps += control->accepted;
   } else {
     return true;
   }
