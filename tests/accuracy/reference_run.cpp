@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 
+#include <pantin/physics/integrators/dormand_prince.hpp>
+
 namespace pantin::test {
 namespace fs = std::filesystem;
 
@@ -72,7 +74,8 @@ void compare(const reference::Sample& sample, const ReferenceInstance& built, co
 RunErrors run(const ReferenceProblem& problem, const RunSettings& settings) {
   RunErrors errors;
   PhysicsManager physics;
-  physics.set_integrator(make_integrator(settings.integrator));
+  physics.set_integrator(settings.tolerance > 0 ? make_dormand_prince({.tolerance = settings.tolerance})
+                                                : make_integrator(settings.integrator));
   const Loaded<ReferenceInstance> built = instantiate(problem, physics);
   if (!built.value) {
     errors.failure = lines(built.notes);

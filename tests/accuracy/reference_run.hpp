@@ -12,8 +12,9 @@ namespace pantin::test {
 
 struct RunSettings {
   std::string integrator{"rk4"};  ///< a name of the catalogue
-  double step{1e-3};              ///< > 0 [s]; shortened so that samples are hit exactly
-  int refinement{1};              ///< cuts every step into so many equal ones
+  double tolerance{0};  ///< above 0: dormand-prince at this tolerance, whatever the integrator's name
+  double step{1e-3};    ///< > 0 [s]; shortened so that samples are hit exactly
+  int refinement{1};    ///< cuts every step into so many equal ones
   double until{
       std::numeric_limits<double>::infinity()};  ///< last sample that counts [s]; never after the duration
 };
