@@ -93,7 +93,7 @@ struct Bridge::Impl {
   void untie(Binding& binding);
   void tie(Binding& binding, std::vector<Diagnostic>& notes);
   void tie_by_link(Binding& binding, std::vector<Diagnostic>& notes);
-  void change_kind(Binding& binding, std::vector<Diagnostic>& notes);
+  void change_kind(Binding& binding);
   [[nodiscard]] Pose trajectory_pose(const Binding& binding) const;
   void jump_to_trajectory(Binding& binding);
   void tell_turns(std::span<Binding* const> affected);

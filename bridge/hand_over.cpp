@@ -1,5 +1,5 @@
 // Scene -> Physics. A plan is made and judged before anything changes; what shows only when bodies and joints
-// stand (loops, joints that move nothing) is undone.
+// stand (loops that cannot be closed, joints that move nothing) is undone.
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>

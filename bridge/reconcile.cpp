@@ -47,7 +47,7 @@ std::vector<Diagnostic> Bridge::Impl::settle(std::span<const NodeId> tops) {
     if (binding->drive == Drive::Scene) build_chain(*binding);
     else binding->moved_from.reset();
   }
-  for (Binding* binding : affected) change_kind(*binding, notes);
+  for (Binding* binding : affected) change_kind(*binding);
   assign_masses(affected, notes);
   if (has_error(notes)) return notes;
   for (Binding* binding : affected) {
@@ -79,7 +79,7 @@ void Bridge::Impl::link_up(std::span<Binding* const> affected) const {
 }
 
 // Turning Scene into Physics keeps what the trajectory gave last: its motion up to now.
-void Bridge::Impl::change_kind(Binding& binding, std::vector<Diagnostic>& notes) {
+void Bridge::Impl::change_kind(Binding& binding) {
   const BodyKind wanted = wanted_kind(binding);
   if (physics.body(binding.body).kind() == wanted) return;
   switch (wanted) {
@@ -94,13 +94,7 @@ void Bridge::Impl::change_kind(Binding& binding, std::vector<Diagnostic>& notes)
       else physics.make_animated(binding.body, std::make_unique<NodeDriver>(*binding.motion));
       break;
     case BodyKind::Simulated:
-      if (physics.simulating_closes_loop(binding.body)) {
-        notes.push_back(note(Severity::Error, binding.node,
-                             "simulating it closes a loop of joints, which this version cannot solve",
-                             "remove one joint of the loop"));
-      } else {
-        physics.make_simulated(binding.body);
-      }
+      physics.make_simulated(binding.body);
       break;
   }
 }

@@ -49,15 +49,6 @@ void Bridge::Impl::untie(Binding& binding) {
 void Bridge::Impl::tie(Binding& binding, std::vector<Diagnostic>& notes) {
   const JointTie wanted = wanted_tie(binding);
   if (wanted.kind == JointTie::Kind::None) return;
-  if (physics.closes_loop(wanted.to, binding.body)) {
-    const Link* link = scene.link(binding.node);
-    const std::string joint =
-        wanted.kind == JointTie::Kind::Driven ? "driven joint" : "joint '" + link->name + "'";
-    notes.push_back(note(Severity::Error, binding.node,
-                         "its " + joint + " closes a loop of joints, which this version cannot solve",
-                         "remove one joint of the loop"));
-    return;
-  }
   binding.tie = wanted;
   if (wanted.kind == JointTie::Kind::Link) return tie_by_link(binding, notes);
   binding.joint = physics.add(DrivenSettings{.name = scene.name(binding.node),

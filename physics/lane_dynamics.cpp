@@ -94,7 +94,9 @@ void WorldDynamics::rates(const Stages& stages) {
 void WorldDynamics::derivatives(const Stages& stages) {
   const std::size_t count = stages.at.size();
   const lanes::Kernel* kernel = lanes::kernel_for_stages(count);
-  if (!uses_lanes || kernel == nullptr) return Dynamics::derivatives(stages);
+  // Loops couple the rates of a tree stage by stage.
+  const bool in_lanes = uses_lanes && kernel != nullptr && constraints_.layout().closures.empty();
+  if (!in_lanes) return Dynamics::derivatives(stages);
   rates(stages);
   evaluations += static_cast<int>(count);
   const bool plain = also == nullptr && !bodies_.state.loaded;

@@ -104,6 +104,12 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
   const Instant now{bodies_.state.time, Side::After};
   Articulated& kernel = constraints_.kernel();
   for (const Tree& tree : layout.trees) {
+    if (tree.has_closures()) {
+      // Near singular positions the way out of the loop is full of noise, and is settled away.
+      const TreeView view{layout, tree, kernel, grounds_, now};
+      constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_q);
+      constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_v);
+    }
     kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), still);
     base_.resize(layout.links.size());
     for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {

@@ -52,7 +52,8 @@ class PhysicsManager {
                            InertiaCheck check = InertiaCheck::Physical);
 
   /// Teleports: the previous pose becomes the new one. What hangs on the body through joints moves along. A
-  /// pose that the body's own joint does not allow is brought back to the joint at the next step.
+  /// pose that the body's own joint does not allow is brought back to the joint at the next step. In loops
+  /// the rest follows; where it cannot, the next step says so.
   void set_pose(BodyId id, const Pose& X_WB);
   /// Of a simulated body. Velocities that joints do not allow are projected on them at the next step, momenta
   /// kept as far as the joints let them.
@@ -74,19 +75,18 @@ class PhysicsManager {
   JointId add(S settings) {
     return add_joint(define(std::move(settings)));
   }
-  JointId add_joint(JointDefinition joint);  ///< a closed loop breaks the contract: ask closes_loop first
+  JointId add_joint(JointDefinition joint);
   void remove(JointId id);
   [[nodiscard]] bool contains(JointId id) const noexcept;
   [[nodiscard]] std::vector<JointId> joints() const;
   [[nodiscard]] const JointDefinition& joint(JointId id) const;
   [[nodiscard]] std::vector<JointId> joints_of(BodyId id) const;
-  /// Whether a joint between these two (null = world) would close a loop; all bodies that are not simulated
-  /// count as one with the world.
+  /// Whether a joint between these two (null = world) would close a loop of joints; all bodies that are not
+  /// simulated count as one with the world. Loops are held, at some cost: of each loop the joint with the
+  /// fewest rows is cut and held by multipliers, also where loops are redundant or pass singular positions.
   [[nodiscard]] bool closes_loop(BodyId a, BodyId b) const;
-  /// Whether simulating this body, animated or static now, would close a loop through its joints.
-  [[nodiscard]] bool simulating_closes_loop(BodyId id) const;
-  /// Joints that move nothing that resists (massless ends), and floating bodies without mass; call before
-  /// stepping.
+  /// Joints that move nothing that resists (massless ends), floating bodies without mass, and joints whose
+  /// loops cannot be closed from where the bodies stand; call before stepping.
   [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints() const;
 
   /// Where B stands against A: pivot angle with its turns [rad], slider [m], ball (w, x, y, z); none for
@@ -94,10 +94,12 @@ class PhysicsManager {
   [[nodiscard]] JointNumbers joint_value(JointId id) const;
   /// pivot [rad/s], slider [m/s], ball: angular velocity of B in A in axes of B's joint frame [rad/s].
   [[nodiscard]] JointNumbers joint_rate(JointId id) const;
-  /// Moves B and all it carries.
+  /// Moves B and all it carries; in a loop the rest follows, by the shortest way that its inertia knows. A
+  /// value or rate that the loop does not allow breaks the contract.
   void set_joint_value(JointId id, const JointNumbers& value);
   void set_joint_rate(JointId id, const JointNumbers& rate);
   /// Wrench that A exerts on B through the joint, at J, in W, at the present state: evaluated on demand.
+  /// Where loops are redundant, the least that does it.
   [[nodiscard]] Wrench reaction(JointId id) const;
   /// Greatest distance [m] and angle [rad] by which body poses miss their joints.
   [[nodiscard]] JointDrift joint_drift() const;

@@ -28,6 +28,9 @@ StepReport PhysicsManager::step(double h) {
   State& state = world.bodies.state;
   state.previous = state.bodies;
   world.constraints.prepare(world.bodies);
+  if (const OpenLoop open = world.constraints.find_open_loop(world.bodies); open.joint >= 0) {
+    return world.failure(open);
+  }
   const double end = state.time + (h + state.time_compensation);
   const double slack = kBreakSlack * (std::abs(end) + h);
   const bool cut = world.next_break(state.time) < end - slack;
@@ -107,6 +110,10 @@ void PhysicsManager::Impl::pass_break() {
   }
   for (const Tree& tree : constraints.layout().trees) {
     if (!tree.follows_driver) continue;
+    if (tree.has_closures()) {
+      constraints.reclose(bodies, static_cast<std::size_t>(&tree - constraints.layout().trees.data()),
+                          grounds, now);
+    }
     constraints.project(bodies, tree, grounds, now);
     constraints.commit(bodies, tree, grounds, now);
   }
@@ -124,7 +131,7 @@ bool PhysicsManager::Impl::update(double h) {
     integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
   }
   if (control != nullptr) note_control(*control);
-  if (dynamics.first_not_finite() >= 0) {
+  if (dynamics.first_not_finite() >= 0 || dynamics.open_loop().joint >= 0) {
     bodies.state.memory = {};
     return false;
   }
@@ -172,6 +179,17 @@ void PhysicsManager::Impl::list_moved() {
   }
 }
 
+StepReport PhysicsManager::Impl::failure(const OpenLoop& open) const {
+  const SettingsProblem problem = constraints.problem_with(open);
+  StepReport report;
+  report.status = StepStatus::LoopOpen;
+  report.time = bodies.state.time;
+  report.evaluations = dynamics.evaluations;
+  report.message =
+      "after " + std::to_string(bodies.state.time) + " s " + problem.text + "; " + problem.remedy;
+  return report;
+}
+
 StepReport PhysicsManager::Impl::failure() const {
   StepReport report;
   report.status = StepStatus::NotFinite;
@@ -186,6 +204,7 @@ StepReport PhysicsManager::Impl::failure() const {
     return report;
   }
   const std::int32_t i = dynamics.first_not_finite();
+  if (i < 0) return failure(dynamics.open_loop());
   const auto position = static_cast<std::size_t>(i);
   report.body = bodies.ids[position];
   const bool joined = constraints.layout().link_of_body[position] >= 0;

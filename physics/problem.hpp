@@ -12,7 +12,8 @@ enum class ProblemCode {
   Unphysical,     ///< mass properties that no body has
   NotClosed,      ///< a mesh whose surface does not enclose a volume
   UnknownEntity,  ///< an id that is null or no longer alive
-  ClosedLoop,     ///< a joint between two bodies that are already joined
+  ClosedLoop,     ///< a joint between a body and itself
+  OpenLoop,       ///< joints that close a loop, and cannot all be met
   SingularMass,   ///< a joint moves nothing that resists
 };
 

@@ -25,7 +25,8 @@ bool operator==(const State& a, const State& b) {
       return false;
     }
   }
-  return a.coordinates == b.coordinates && a.rates == b.rates && a.particles == b.particles;
+  return a.coordinates == b.coordinates && a.rates == b.rates && a.cut_coordinates == b.cut_coordinates &&
+         a.particles == b.particles;
 }
 
 std::uint64_t hash(const State& state) {

@@ -34,7 +34,8 @@ struct State {
   bool struck{false};                 ///< some accumulated impulse is not zero
   std::vector<double> coordinates{};  ///< of all trees, in the order of the manager's layout
   std::vector<double> rates{};
-  std::vector<std::uint8_t> edited{};  ///< per tree: velocities were set from outside since the last step
+  std::vector<double> cut_coordinates{};  ///< of joints that are cut to make trees of loops; 7 numbers each
+  std::vector<std::uint8_t> edited{};     ///< per tree: velocities were set from outside since the last step
   std::vector<ParticleSystemState> particles{};
 };
 

@@ -37,6 +37,7 @@ struct PhysicsManager::Impl {
   void apply_impulses();
   void list_moved();
   [[nodiscard]] StepReport failure() const;
+  [[nodiscard]] StepReport failure(const OpenLoop& open) const;
   [[nodiscard]] Energy energy() const;
 };
 

@@ -27,6 +27,7 @@ void WorldDynamics::begin() {
   const TreeLayout& layout = constraints_.layout();
   q_.resize(kFreeCoordinates * layout.free_bodies.size() + layout.coordinates);
   v_.resize(kFreeVelocities * layout.free_bodies.size() + layout.rates);
+  open_loop_ = {};
   stage_ = bodies_.state.kinematics;
   wrenches_.resize(bodies_.size());
   has_animated_ =
@@ -159,8 +160,10 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
                           stage_[i].p_WBcm);
       }
     }
+    if (tree.has_closures()) ClosureSolver::add_damping(layout, tree, kernel, grounds_, at);
     kernel.eliminate(layout, tree, v.last(layout.rates));
     kernel.substitute(layout, tree, v_dot.last(layout.rates));
+    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout.rates));
   }
 }
 
@@ -181,7 +184,7 @@ void WorldDynamics::derivative(Instant at, std::span<const double> q, std::span<
   tree_rates(q, v, q_dot);
 }
 
-void WorldDynamics::settle(Instant, std::span<double> q_all, std::span<double>) {
+void WorldDynamics::settle(Instant at, std::span<double> q_all, std::span<double> v_all) {
   double* q = q_all.data();
   for (const std::uint32_t i : free_bodies()) {
     // A body that did not turn keeps its bits.
@@ -198,6 +201,10 @@ void WorldDynamics::settle(Instant, std::span<double> q_all, std::span<double>) 
       if (!std::equal(q + link.q, q + link.q + Model::kCoordinates, before + link.q))
         Model::normalise(q + link.q);
     });
+  }
+  if (has_constraints()) {
+    const TreeLayout& layout = constraints_.layout();
+    settle_loops(at, q_all.last(layout.coordinates), v_all.last(layout.rates));
   }
 }
 

@@ -20,6 +20,11 @@ class WrenchSource {
   virtual void add_wrenches(const BodiesAt& bodies, std::span<Wrench> wrenches) = 0;
 };
 
+/// By which a joint that is cut to make a tree of a loop acts on its B at p_WJ, and the other way on its A.
+struct CutWrench {
+  Vector3 p_WJ{Vector3::Zero()}, force{Vector3::Zero()}, torque{Vector3::Zero()};
+};
+
 class WorldDynamics final : public Dynamics {
  public:
   WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces)
@@ -43,6 +48,8 @@ class WorldDynamics final : public Dynamics {
   /// external wrenches that act.
   void accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
                          std::vector<Vector3>& a_cm);
+  /// Of a closure, as accelerations_now has left it.
+  [[nodiscard]] CutWrench cut_wrench(std::uint32_t closure) const;
 
   [[nodiscard]] std::size_t coordinates() const override { return q_.size(); }
   [[nodiscard]] std::size_t velocities() const override { return v_.size(); }
@@ -53,6 +60,9 @@ class WorldDynamics final : public Dynamics {
   void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override;
+  [[nodiscard]] bool has_constraints() const override { return !constraints_.layout().closures.empty(); }
+  /// A loop that the state settled last leaves open.
+  [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
                       std::span<const double> v_error, double h) override;
@@ -74,6 +84,8 @@ class WorldDynamics final : public Dynamics {
   void evaluate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                 std::span<double> v_dot);
   void gather_wrenches(Instant at);
+  void evaluate_loops(Instant at, const Tree& tree, std::span<double> v_dot);
+  void settle_loops(Instant at, std::span<double> q, std::span<double> v);
   /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
   /// rewritten).
   [[nodiscard]] bool is_at_rest(const Tree& tree, Instant at);
@@ -116,6 +128,7 @@ class WorldDynamics final : public Dynamics {
   void collect_wrenches(const Stages& stages, std::size_t first, std::size_t lane, std::size_t count);
   void free_forces(const Stages& stages, const Vector3& g_W);
   LaneRoom lane_{};
+  OpenLoop open_loop_{};
 };
 
 }  // namespace pantin

@@ -1,6 +1,4 @@
 // From a problem to physics: everything is judged before anything is built.
-#include <numeric>
-
 #include <pantin/bridge/problems/rigid_ref.hpp>
 #include <pantin/physics/constraints/ball.hpp>
 #include <pantin/physics/constraints/fixed.hpp>
@@ -43,37 +41,13 @@ Diagnostic unsupported(const Problem& problem, const std::string& pointer, std::
           std::move(remedy)};
 }
 
-/// Joints that close a loop; everything that no force moves is one with the world.
-void find_loops(const Problem& problem, const ProblemIndex& index, std::vector<Diagnostic>& ledger) {
-  std::vector<std::size_t> group(problem.bodies.size() + 1);  // the world is the last
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  const auto root_of = [&](const std::string& name) {
-    const ProblemIndex::Entry entry = index.find(name);
-    std::size_t i = entry.kind == NameKind::Body ? entry.position : problem.bodies.size();
-    while (group[i] != i) i = group[i] = group[group[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < problem.joints.size(); ++i) {
-    const Joint& joint = problem.joints[i];
-    const std::size_t a = root_of(joint.a), b = root_of(joint.b);
-    if (a == b) {
-      ledger.push_back(unsupported(problem, "/joints/" + std::to_string(i), "joint '" + joint.name + "'",
-                                   "closes a loop, which physics cannot hold yet",
-                                   "leave one joint of the loop out"));
-    }
-    group[a] = b;
-  }
-}
-
 std::vector<Diagnostic> unsupported_parts(const Problem& problem) {
   std::vector<Diagnostic> ledger;
-  const ProblemIndex index{problem};
   for (std::size_t i = 0; i < problem.contacts.size(); ++i) {
     ledger.push_back(unsupported(problem, "/contacts/" + std::to_string(i),
                                  "contact " + type_name(problem.contacts[i]), "physics has no contacts yet",
                                  "leave it out if the bodies never touch"));
   }
-  find_loops(problem, index, ledger);
   return ledger;
 }
 
@@ -226,7 +200,7 @@ class Builder {
   ReferenceInstance built_;
 };
 
-/// Joints of the instance that move nothing that resists.
+/// Joints of the instance that move nothing that resists, and loops that cannot be closed.
 std::vector<Diagnostic> singular_parts(const Problem& problem, const ReferenceInstance& built,
                                        const PhysicsManager& physics) {
   std::vector<Diagnostic> ledger;

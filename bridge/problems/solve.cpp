@@ -195,6 +195,24 @@ class Run {
 
 }  // namespace
 
+namespace {
+
+/// One integrator drives all islands: what suits loops is good enough for the others.
+std::string common_choice(std::vector<IslandChoice>& islands) {
+  if (islands.empty()) return "gauss16";
+  std::string common = islands.front().solver;
+  for (const IslandChoice& island : islands) {
+    if (island.solver == "dormand-prince") common = island.solver;
+  }
+  for (IslandChoice& island : islands) {
+    if (island.solver != common) island.reason = "one integrator drives all islands, and another has a loop";
+    island.solver = common;
+  }
+  return common;
+}
+
+}  // namespace
+
 std::optional<SettingsProblem> problem_with(const SolveSettings& settings) {
   if (settings.integrator != "auto" && make_integrator(settings.integrator) == nullptr) {
     return SettingsProblem{ProblemCode::OutOfRange, "no integrator is called '" + settings.integrator + "'",
@@ -229,8 +247,7 @@ SolveResult solve(const ReferenceProblem& problem, const SolveSettings& settings
     result.islands = choose_solvers(problem, settings.tolerance);
     result.integrator = settings.integrator;
     if (settings.integrator == "auto") {
-      // One integrator drives all islands; the most demanding choice is good for the others.
-      result.integrator = result.islands.empty() ? "gauss16" : result.islands.front().solver;
+      result.integrator = common_choice(result.islands);
     } else {
       for (IslandChoice& island : result.islands) {
         island.solver = settings.integrator;

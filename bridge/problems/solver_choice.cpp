@@ -1,6 +1,7 @@
 #include <pantin/bridge/problems/solver_choice.hpp>
 
 #include <map>
+#include <numeric>
 
 #include <pantin/physics/setting_checks.hpp>
 
@@ -9,51 +10,80 @@ namespace {
 
 using namespace reference;
 
-/// Groups of names that something couples; world and animated bodies couple nothing.
-class Groups {
+/// Sets of numbers 0 to n - 1 that grow together.
+class UnionFind {
  public:
-  explicit Groups(const Problem& problem) {
+  explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// False if they were together before.
+  bool join(std::size_t a, std::size_t b) {
+    const std::size_t from = root(a), to = root(b);
+    parent_[from] = to;
+    return from != to;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Bodies and particles that something couples; world and animated bodies couple nothing, but loops may close
+/// through them.
+class Islands {
+ public:
+  explicit Islands(const Problem& problem) {
     for (const Body& body : problem.bodies) add(body.name);
     for (const Particle& particle : problem.particles) add(particle.name);
-    for (const Joint& joint : problem.joints) couple(joint.a, joint.b);
+    const std::size_t ground = names_.size();
+    UnionFind coupled{ground + 1}, jointed{ground + 1};
+    const auto couple = [&](const std::string& a, const std::string& b) {
+      const auto at_a = index_.find(a), at_b = index_.find(b);
+      if (at_a != index_.end() && at_b != index_.end()) coupled.join(at_a->second, at_b->second);
+    };
+    std::vector<std::size_t> closing;
+    for (const Joint& joint : problem.joints) {
+      couple(joint.a, joint.b);
+      const auto at_a = index_.find(joint.a), at_b = index_.find(joint.b);
+      const std::size_t a = at_a == index_.end() ? ground : at_a->second;
+      const std::size_t b = at_b == index_.end() ? ground : at_b->second;
+      if (!jointed.join(a, b)) closing.push_back(a == ground ? b : a);
+    }
     for (const Force& force : problem.forces) {
       if (const auto* spring = std::get_if<Spring>(&force)) couple(spring->a.body, spring->b.body);
     }
     for (const Contact& contact : problem.contacts) {
       if (const auto* pair = std::get_if<CapsulePair>(&contact.pair)) couple(pair->a, pair->b);
     }
+    collect(coupled, closing);
   }
 
-  /// Names by group, groups and names in the order of the problem.
-  [[nodiscard]] std::vector<std::vector<std::string>> names() {
-    std::map<std::size_t, std::size_t> order;
-    std::vector<std::vector<std::string>> groups;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto [place, is_new] = order.emplace(root(i), groups.size());
-      if (is_new) groups.emplace_back();
-      groups[place->second].push_back(names_[i]);
-    }
-    return groups;
-  }
+  struct Island {
+    std::vector<std::string> names{};
+    bool has_loop{false};
+  };
+  /// In the order of the problem.
+  [[nodiscard]] std::vector<Island>& list() { return islands_; }
 
  private:
   void add(const std::string& name) {
     index_.emplace(name, names_.size());
-    parent_.push_back(names_.size());
     names_.push_back(name);
   }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void couple(const std::string& a, const std::string& b) {
-    const auto at_a = index_.find(a), at_b = index_.find(b);
-    if (at_a != index_.end() && at_b != index_.end()) parent_[root(at_a->second)] = root(at_b->second);
+  void collect(UnionFind& coupled, const std::vector<std::size_t>& closing) {
+    std::map<std::size_t, std::size_t> order;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const auto [place, is_new] = order.emplace(coupled.root(i), islands_.size());
+      if (is_new) islands_.emplace_back();
+      islands_[place->second].names.push_back(names_[i]);
+    }
+    for (const std::size_t i : closing) islands_[order.at(coupled.root(i))].has_loop = true;
   }
 
   std::vector<std::string> names_{};
-  std::vector<std::size_t> parent_{};
   std::map<std::string, std::size_t> index_{};
+  std::vector<Island> islands_{};
 };
 
 /// Below this tolerance sixteenth order needs fewer evaluations than eighth.
@@ -63,13 +93,19 @@ constexpr double kHighOrderBelow = 1e-6;
 
 std::vector<IslandChoice> choose_solvers(const ReferenceProblem& problem, double tolerance) {
   std::vector<IslandChoice> choices;
-  for (std::vector<std::string>& names : Groups{problem}.names()) {
-    IslandChoice choice{.bodies = std::move(names)};
-    const bool high = tolerance < kHighOrderBelow;
-    choice.solver = high ? "gauss16" : "gauss8";
-    choice.reason = "smooth motion at tolerance " + text_of(tolerance) +
-                    (high ? ", where order 16 needs the fewest evaluations"
-                          : ", where order 8 needs the fewest evaluations");
+  Islands islands{problem};
+  for (Islands::Island& island : islands.list()) {
+    IslandChoice choice{.bodies = std::move(island.names)};
+    if (island.has_loop) {
+      choice.solver = "dormand-prince";
+      choice.reason = "closed loops may pass singular positions, where short steps keep to their branch";
+    } else {
+      const bool high = tolerance < kHighOrderBelow;
+      choice.solver = high ? "gauss16" : "gauss8";
+      choice.reason = "smooth motion at tolerance " + text_of(tolerance) +
+                      (high ? ", where order 16 needs the fewest evaluations"
+                            : ", where order 8 needs the fewest evaluations");
+    }
     choices.push_back(std::move(choice));
   }
   return choices;

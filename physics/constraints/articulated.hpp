@@ -55,6 +55,8 @@ class Articulated {
   /// have been called with zero rates.
   void load_momenta(const TreeLayout& layout, const Tree& tree, std::span<const MassProperties> mass,
                     std::span<const BodyState> bodies);
+  /// Inertia alone: eliminate then makes a factor with a right-hand side of zero.
+  void load_inertia(const TreeLayout& layout, const Tree& tree);
   /// External wrench on a link: force, and torque about the point `p_WQ`.
   void add_wrench(std::int32_t link, const Vector3& force, const Vector3& torque, const Vector3& p_WQ);
   /// Damping torques -d v enter here, with the rates given (empty: none).
@@ -62,9 +64,30 @@ class Articulated {
   /// v' (or the rates, after load_momenta) of a tree, into the vector of all trees.
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
+  // After eliminate, for rows between two links (closure.hpp), with D = L d L^T:
+  struct RowWrench {
+    kernel::Vec3<double> force{}, torque{}, point{};  ///< on B; the opposite on A at the same point of W
+  };
+  struct Passing {  ///< work space: a wrench on its way to the ground
+    kernel::Vec3<double> p_a{}, p_l{};
+  };
+  struct Reduction {
+    double squares{0};  ///< y^T d^-1 y: what the row's wrenches do to the row itself
+    double bound{0};    ///< what they could, were every lever at its best
+  };
+  /// What the unit wrenches of a row leave at the joints of the closure's path on their way to the ground,
+  /// multiplied by L^-1. `passing` has room for the path.
+  Reduction reduce(const TreeLayout& layout, const Closure& closure, const RowWrench& row,
+                   std::span<Passing> passing, std::span<double> y) const;
+  /// y^T d^-1 z of one link.
+  [[nodiscard]] double product(const TreeLayout& layout, std::uint32_t link, const double* y,
+                               const double* z) const;
+  /// Adds a multiple of what `reduce` left to the right-hand side: the next substitute feels it.
+  void push(const TreeLayout& layout, const Closure& closure, double multiplier, std::span<const double> y);
+
   [[nodiscard]] const LinkWork& link(std::int32_t i) const { return work_[static_cast<std::size_t>(i)]; }
-  /// After eliminate: whether a joint direction of this link meets no inertia (relative 1e-12). Links nearer to the
-  /// root than a singular one have no numbers and are not called singular for it.
+  /// After eliminate: whether a joint direction of this link meets no inertia (relative 1e-12). Links nearer
+  /// to the root than a singular one have no numbers and are not called singular for it.
   [[nodiscard]] bool is_singular(const TreeLayout& layout, std::int32_t link) const;
 
  private:
@@ -72,6 +95,9 @@ class Articulated {
   void start_inertia(const TreeLink& link, LinkWork& work) const;
   template <int N>
   void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v);
+  template <int N>
+  void reduce_link(const TreeLink& link, const LinkWork& work, Vec& p_a, Vec& p_l, double* y,
+                   Reduction& sum) const;
   template <int N>
   void substitute_link(const TreeLink& link, LinkWork& work, const Vec& dal, const Vec& da,
                        std::span<double> v_dot);

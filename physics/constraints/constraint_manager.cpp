@@ -69,46 +69,65 @@ void ConstraintManager::ground_motions(const BodyStore& bodies, Instant at,
   }
 }
 
+void ConstraintManager::lay_out_anew(BodyStore& bodies) {
+  State& state = bodies.state;
+  std::vector<const JointDefinition*> joints;
+  for (const auto& joint : joints_) joints.push_back(joint.get());
+  layout_ = lay_out(bodies, joints);
+  kernel_.resize(layout_);
+  loops_.resize(layout_);
+  open_.assign(layout_.trees.size(), {});
+  state.topology = stamp_of(bodies, ids_);
+  state.coordinates.assign(layout_.coordinates, 0.0);
+  state.rates.assign(layout_.rates, 0.0);
+  state.cut_coordinates.assign(kMostCoordinates * layout_.closures.size(), 0.0);
+  zero_rates_.assign(layout_.rates, 0.0);
+  state.edited.assign(layout_.trees.size(), 1);
+  const auto last_of = [this](std::int32_t joint, JointKind kind) {
+    Numbers near;
+    zero(kind, near.q);
+    const bool known = joint >= 0 && last_[static_cast<std::size_t>(joint)].known;
+    return known ? last_[static_cast<std::size_t>(joint)] : near;
+  };
+  for (const TreeLink& link : layout_.links) {
+    Numbers near = last_of(link.joint, link.kind);
+    with_model(link, [&](auto model) {
+      if (link.reversed) model.reverse(near.q, near.v);
+      std::copy_n(near.q, decltype(model)::kCoordinates, state.coordinates.data() + link.q);
+    });
+  }
+  for (std::size_t c = 0; c < layout_.closures.size(); ++c) {
+    const Numbers near = last_of(layout_.closures[c].joint, layout_.closures[c].kind);
+    std::copy_n(near.q, kMostCoordinates, state.cut_coordinates.data() + kMostCoordinates * c);
+  }
+  stale_ = false;
+}
+
+void ConstraintManager::measure_anew(BodyStore& bodies, std::size_t t, Instant now) {
+  const Tree& tree = layout_.trees[t];
+  measure(bodies, tree, bodies.state.coordinates);
+  if (tree.has_closures()) reclose(bodies, t, grounds_, now);
+  kernel_.place(layout_, tree, grounds_, now, bodies.state.coordinates, zero_rates_);
+  bool missed = false;
+  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
+    const Pose X_WL = link_pose(bodies, layout_.links[i]);
+    const LinkWork& work = kernel_.link(static_cast<std::int32_t>(i));
+    const Vector3 p{work.p.x, work.p.y, work.p.z};
+    const Matrix3 R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(work.R.m);
+    missed = missed || (X_WL.p - p).norm() > kSnapTolerance * (1 + p.norm()) ||
+             (X_WL.rotation() - R).norm() > kSnapTolerance;
+  }
+  if (missed) write_state(bodies, tree, true);
+  measure_cut_joints(bodies, tree);
+}
+
 void ConstraintManager::prepare(BodyStore& bodies) {
   State& state = bodies.state;
   const Instant now{state.time, Side::After};
   if (stale_) {
-    std::vector<const JointDefinition*> joints;
-    for (const auto& joint : joints_) joints.push_back(joint.get());
-    layout_ = lay_out(bodies, joints);
-    kernel_.resize(layout_);
-    state.topology = stamp_of(bodies, ids_);
-    state.coordinates.assign(layout_.coordinates, 0.0);
-    state.rates.assign(layout_.rates, 0.0);
-    zero_rates_.assign(layout_.rates, 0.0);
-    state.edited.assign(layout_.trees.size(), 1);
-    for (const TreeLink& link : layout_.links) {
-      Numbers near;
-      zero(link.kind, near.q);
-      if (link.joint >= 0 && last_[static_cast<std::size_t>(link.joint)].known) {
-        near = last_[static_cast<std::size_t>(link.joint)];
-      }
-      with_model(link, [&](auto model) {
-        if (link.reversed) model.reverse(near.q, near.v);
-        std::copy_n(near.q, decltype(model)::kCoordinates, state.coordinates.data() + link.q);
-      });
-    }
-    stale_ = false;
+    lay_out_anew(bodies);
     ground_motions(bodies, now, grounds_);
-    for (const Tree& tree : layout_.trees) {
-      measure(bodies, tree, state.coordinates);
-      kernel_.place(layout_, tree, grounds_, now, state.coordinates, zero_rates_);
-      bool missed = false;
-      for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
-        const Pose X_WL = link_pose(bodies, layout_.links[i]);
-        const LinkWork& work = kernel_.link(static_cast<std::int32_t>(i));
-        const Vector3 p{work.p.x, work.p.y, work.p.z};
-        const Matrix3 R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(work.R.m);
-        missed = missed || (X_WL.p - p).norm() > kSnapTolerance * (1 + p.norm()) ||
-                 (X_WL.rotation() - R).norm() > kSnapTolerance;
-      }
-      if (missed) write_state(bodies, tree, true);
-    }
+    for (std::size_t t = 0; t < layout_.trees.size(); ++t) measure_anew(bodies, t, now);
   } else if (std::find(state.edited.begin(), state.edited.end(), 1) != state.edited.end()) {
     ground_motions(bodies, now, grounds_);
   }
@@ -126,6 +145,15 @@ void ConstraintManager::project(BodyStore& bodies, const Tree& tree, std::span<c
   kernel_.load_momenta(layout_, tree, bodies.mass, state.bodies);
   kernel_.eliminate(layout_, tree, {});
   kernel_.substitute(layout_, tree, state.rates);
+  if (tree.has_closures()) {
+    // The impulses of cut joints belong to the same factor.
+    kernel_.place(layout_, tree, grounds, at, state.coordinates, state.rates);
+    ClosureSolver& solver = loops_.solver();
+    solver.measure(layout_, tree, kernel_, grounds, at);
+    solver.factor(layout_, tree, kernel_);
+    solver.solve(layout_, tree, ClosureLevel::Velocity, kernel_);
+    kernel_.substitute(layout_, tree, state.rates);
+  }
   bool finite = true;
   for (std::uint32_t v = tree.v_begin; v < tree.v_end; ++v) finite = finite && std::isfinite(state.rates[v]);
   if (!finite) {  // a joint without inertia: the step will say which
@@ -139,6 +167,7 @@ void ConstraintManager::commit(BodyStore& bodies, const Tree& tree, std::span<co
                                Instant at) {
   kernel_.place(layout_, tree, grounds, at, bodies.state.coordinates, bodies.state.rates);
   write_state(bodies, tree, true);
+  measure_cut_joints(bodies, tree);
 }
 
 void ConstraintManager::write_state(BodyStore& bodies, const Tree& tree, bool poses) const {
@@ -162,40 +191,6 @@ void ConstraintManager::write_state(BodyStore& bodies, const Tree& tree, bool po
       } else if (after.q_WB.dot(before.q_WB) < 0) {
         after.q_WB.coeffs() *= -1;
       }
-    }
-  }
-}
-
-void ConstraintManager::teleport(BodyStore& bodies, std::size_t body, const Pose& X_WB) {
-  prepare(bodies);
-  const std::int32_t index = layout_.link_of_body[body];
-  const TreeLink& link = layout_.links[static_cast<std::size_t>(index)];
-  const std::size_t t = layout_.tree_of(index);
-  const Tree& tree = layout_.trees[t];
-  const BodyKinematics kept = bodies.state.kinematics[body];
-  bodies.place(body, X_WB, kept.v_WBcm, kept.w_WB);
-  // Only the link's own coordinates change; what hangs on it keeps its own and moves along.
-  const TreeMember* member = &layout_.members[link.members_begin];
-  while (member->body != body) ++member;
-  const Pose X_WL = X_WB * inverse(member->X_LB);
-  Pose X_WP;
-  if (link.parent >= 0) X_WP = link_pose(bodies, layout_.links[static_cast<std::size_t>(link.parent)]);
-  if (link.parent < 0 && link.ground >= 0) X_WP = bodies.X_WB(static_cast<std::size_t>(link.ground));
-  double* q = bodies.state.coordinates.data() + link.q;
-  with_model(link, [&](auto model) { model.measure(inverse(X_WP * link.X_PJ) * X_WL, q); });
-  if (link.kind == JointKind::Free) {
-    double* v = bodies.state.rates.data() + link.v;
-    const Vector3 w_L = X_WL.q.conjugate() * kept.w_WB;
-    const Vector3 v_L = kept.v_WBcm + kept.w_WB.cross(X_WL.p - bodies.state.bodies[body].p_WBcm);
-    for (int i = 0; i < 3; ++i) v[i] = w_L[i], v[3 + i] = v_L[i];
-  }
-  const Instant now{bodies.state.time, Side::After};
-  ground_motions(bodies, now, grounds_);
-  commit(bodies, tree, grounds_, now);
-  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
-    for (std::uint32_t m = layout_.links[i].members_begin; m < layout_.links[i].members_end; ++m) {
-      const std::uint32_t b = layout_.members[m].body;
-      bodies.state.previous[b] = bodies.state.bodies[b];
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/articulated.hpp>
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/loop_closer.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 #include <pantin/physics/step_report.hpp>
 
@@ -27,7 +28,6 @@ class ConstraintManager {
   [[nodiscard]] JointId id(std::size_t j) const { return ids_[j]; }
   [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;
   [[nodiscard]] bool closes_loop(const BodyStore& bodies, BodyId a, BodyId b) const;
-  [[nodiscard]] bool simulating_closes_loop(const BodyStore& bodies, BodyId body) const;
 
   // Layout
   /// Bodies, joints, kinds or masses are about to change: keeps what is known of the coordinates, by joint.
@@ -38,12 +38,22 @@ class ConstraintManager {
   [[nodiscard]] bool is_stale() const noexcept { return stale_; }
   [[nodiscard]] const TreeLayout& layout() const noexcept { return layout_; }
   [[nodiscard]] Articulated& kernel() noexcept { return kernel_; }
+  [[nodiscard]] LoopCloser& loops() noexcept { return loops_; }
 
   /// Rates of a tree from the momenta of its bodies: the motion that the joints allow and that has the same
   /// momentum along it (an articulated impulse solve). Writes velocities and momenta.
   void project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
   /// Writes poses, velocities and momenta of a tree's bodies from its coordinates and rates.
   void commit(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
+  /// Closes the loops of a tree whose coordinates or grounds were set from outside. False, with coordinates
+  /// as they were, if there is no way; the tree then counts as open until it is closed.
+  bool reclose(BodyStore& bodies, std::size_t tree, std::span<const RigidMotion> grounds, Instant at);
+  /// A body that is not simulated has been placed: what hangs on it moves along.
+  void ground_has_moved(BodyStore& bodies, std::int32_t ground, Instant at);
+  /// A loop of the present state, which is prepared, that could not be closed, tried again.
+  [[nodiscard]] OpenLoop find_open_loop(BodyStore& bodies);
+  /// What is wrong with an open loop, and what to do.
+  [[nodiscard]] SettingsProblem problem_with(const OpenLoop& loop) const;
   /// Motion of all bodies that are not simulated, by body position.
   void ground_motions(const BodyStore& bodies, Instant at, std::vector<RigidMotion>& out) const;
 
@@ -53,7 +63,7 @@ class ConstraintManager {
   void set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value);
   void set_rate(BodyStore& bodies, std::size_t j, const JointNumbers& rate);
   [[nodiscard]] JointDrift drift(const BodyStore& bodies) const;
-  /// Moves a body of a tree with all that hangs on it; its own joint is kept.
+  /// Moves a body of a tree with all that hangs on it; its own joint is kept, and loops are closed again.
   void teleport(BodyStore& bodies, std::size_t body, const Pose& X_WB);
   [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints(BodyStore& bodies);
 
@@ -65,9 +75,21 @@ class ConstraintManager {
   };
   [[nodiscard]] Numbers numbers(const BodyStore& bodies, std::size_t j) const;
   void put_numbers(BodyStore& bodies, std::size_t j, const Numbers& numbers);
+  void keep_numbers(BodyStore& bodies, std::size_t j, const Numbers& numbers) const;
   void measure(const BodyStore& bodies, const Tree& tree, std::vector<double>& q) const;
   [[nodiscard]] Pose link_pose(const BodyStore& bodies, const TreeLink& link) const;
   void write_state(BodyStore& bodies, const Tree& tree, bool poses) const;
+  void measure_cut_joints(BodyStore& bodies, const Tree& tree) const;
+  void lay_out_anew(BodyStore& bodies);
+  void measure_anew(BodyStore& bodies, std::size_t tree, Instant now);
+  [[nodiscard]] TreeView view(const Tree& tree, std::span<const RigidMotion> grounds, Instant at) {
+    return {layout_, tree, kernel_, grounds, at};
+  }
+  // Trees with loops (held_joint.cpp).
+  [[nodiscard]] std::int32_t tree_of_joint(std::size_t j) const;
+  [[nodiscard]] bool is_in_loop(std::size_t j) const;
+  void set_value_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& to);
+  void set_rate_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& rate);
   [[nodiscard]] Pose relative_pose(const BodyStore& bodies, const JointDefinition& joint) const;
 
   std::vector<std::unique_ptr<JointDefinition>> joints_{};
@@ -80,6 +102,8 @@ class ConstraintManager {
 
   TreeLayout layout_{};
   Articulated kernel_{};
+  LoopCloser loops_{};
+  std::vector<OpenLoop> open_{};  ///< by tree
   bool stale_{true};
   std::vector<RigidMotion> grounds_{};
   std::vector<double> zero_rates_{};

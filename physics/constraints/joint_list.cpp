@@ -109,27 +109,4 @@ bool ConstraintManager::closes_loop(const BodyStore& bodies, BodyId a, BodyId b)
   return small.grounded && large.grounded;
 }
 
-bool ConstraintManager::simulating_closes_loop(const BodyStore& bodies, BodyId start) const {
-  std::vector<std::pair<BodyId, JointId>> open{{start, JointId{}}};
-  std::unordered_set<BodyId> seen{start};
-  int grounds = 0;
-  while (!open.empty()) {
-    const auto [body, came_by] = open.back();
-    open.pop_back();
-    for (const JointId id : joints_of(body)) {
-      if (id == came_by) continue;
-      const JointDefinition& joint = *joints_[at(id)];
-      const BodyId other = joint.a == body ? joint.b : joint.a;
-      if (other != start && is_ground(bodies, other)) {
-        ++grounds;
-      } else if (!seen.insert(other).second) {
-        return true;
-      } else {
-        open.emplace_back(other, id);
-      }
-    }
-  }
-  return grounds > 1;
-}
-
 }  // namespace pantin

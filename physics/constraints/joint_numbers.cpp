@@ -63,6 +63,13 @@ Pose ConstraintManager::relative_pose(const BodyStore& bodies, const JointDefini
 ConstraintManager::Numbers ConstraintManager::numbers(const BodyStore& bodies, std::size_t j) const {
   const JointDefinition& joint = *joints_[j];
   Numbers out = last_[j];
+  const std::int32_t closure = stale_ ? -1 : layout_.closure_of_joint[j];
+  if (closure >= 0) {
+    const auto first = static_cast<std::size_t>(kMostCoordinates * closure);
+    std::copy_n(bodies.state.cut_coordinates.data() + first, kMostCoordinates, out.q);
+    out.known = true;
+    return out;
+  }
   const std::int32_t index = stale_ ? -1 : layout_.link_of_joint[j];
   if (index >= 0) {
     const TreeLink& link = layout_.links[static_cast<std::size_t>(index)];
@@ -116,11 +123,13 @@ JointNumbers ConstraintManager::rate(const BodyStore& bodies, std::size_t j) con
   return out;
 }
 
-void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numbers& given) {
-  const std::int32_t index = layout_.link_of_joint[j];
-  PANTIN_EXPECTS(index >= 0, "joint '" + joints_[j]->name +
-                                 "' moves nothing: both its bodies are not simulated, or it is fixed");
-  const TreeLink& link = layout_.links[static_cast<std::size_t>(index)];
+void ConstraintManager::keep_numbers(BodyStore& bodies, std::size_t j, const Numbers& given) const {
+  if (const std::int32_t closure = layout_.closure_of_joint[j]; closure >= 0) {
+    const auto first = static_cast<std::size_t>(kMostCoordinates * closure);
+    std::copy_n(given.q, kMostCoordinates, bodies.state.cut_coordinates.data() + first);
+    return;
+  }
+  const TreeLink& link = layout_.links[static_cast<std::size_t>(layout_.link_of_joint[j])];
   Numbers n = given;
   with_model(link, [&](auto model) {
     if (link.reversed) model.reverse(n.q, n.v);
@@ -128,6 +137,13 @@ void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numb
     std::copy_n(n.q, decltype(model)::kCoordinates, bodies.state.coordinates.data() + link.q);
     std::copy_n(n.v, decltype(model)::kRates, bodies.state.rates.data() + link.v);
   });
+}
+
+void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numbers& given) {
+  const std::int32_t index = layout_.link_of_joint[j];
+  PANTIN_EXPECTS(index >= 0, "joint '" + joints_[j]->name +
+                                 "' moves nothing: both its bodies are not simulated, or it is fixed");
+  keep_numbers(bodies, j, given);
   const Instant now{bodies.state.time, Side::After};
   ground_motions(bodies, now, grounds_);
   commit(bodies, layout_.trees[layout_.tree_of(index)], grounds_, now);
@@ -142,6 +158,7 @@ void ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointN
                        std::to_string(decltype(model)::kCoordinates) + " coordinate(s), not " +
                        std::to_string(value.size()));
   });
+  if (is_in_loop(j)) return set_value_in_loop(bodies, j, value);
   std::copy(value.numbers().begin(), value.numbers().end(), n.q);
   put_numbers(bodies, j, n);
 }
@@ -155,6 +172,7 @@ void ConstraintManager::set_rate(BodyStore& bodies, std::size_t j, const JointNu
                        std::to_string(decltype(model)::kRates) + " rate(s), not " +
                        std::to_string(rate.size()));
   });
+  if (is_in_loop(j)) return set_rate_in_loop(bodies, j, rate);
   std::copy(rate.numbers().begin(), rate.numbers().end(), n.v);
   put_numbers(bodies, j, n);
 }
@@ -202,6 +220,10 @@ std::vector<std::pair<JointId, SettingsProblem>> ConstraintManager::singular_joi
                               "' and what it carries have no mass or inertia in that direction",
                           "give '" + body + "' mass and inertia, or fix it to a body that has them"});
     }
+  }
+  const OpenLoop open = find_open_loop(bodies);
+  if (out.empty() && open.joint >= 0) {
+    out.emplace_back(ids_[static_cast<std::size_t>(open.joint)], problem_with(open));
   }
   for (const std::uint32_t i : layout_.free_bodies) {
     if (bodies.mass[i].mass > 0) continue;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include <pantin/physics/constraints/closure.hpp>
 #include <pantin/physics/constraints/joint_models.hpp>
-#include <pantin/physics/expects.hpp>
+#include <pantin/physics/constraints/spanning_tree.hpp>
 
 namespace pantin {
 
@@ -20,15 +21,27 @@ struct Edge {
 class Builder {
  public:
   Builder(const BodyStore& bodies, std::span<const JointDefinition* const> joints)
-      : bodies_{bodies}, joints_{joints} {
+      : bodies_{bodies}, joints_{joints}, spanning_{span_trees(bodies, joints)} {
     layout_.link_of_body.assign(bodies.size(), -1);
     layout_.link_of_joint.assign(joints.size(), -1);
+    layout_.closure_of_joint.assign(joints.size(), -1);
     is_b_.assign(bodies.size(), false);
     collect_edges();
   }
 
   TreeLayout build() {
-    for (const auto& [body, edge] : grounded_) grow_from_ground(body, edge);
+    std::vector<bool> is_built(static_cast<std::size_t>(spanning_.mechanisms), false);
+    for (const auto& [body, edge] : grounded_) {
+      const std::int32_t mechanism = spanning_.mechanism[static_cast<std::size_t>(body)];
+      if (mechanism < 0) {
+        begin_tree();
+        grow_from_ground(body, edge);
+        end_tree();
+      } else if (!is_built[static_cast<std::size_t>(mechanism)]) {
+        is_built[static_cast<std::size_t>(mechanism)] = true;
+        build_mechanism(mechanism);
+      }
+    }
     // Floating trees: from a body that no joint carries, else (never in a tree) from the first.
     for (const bool wanted : {false, true}) {
       for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -42,6 +55,7 @@ class Builder {
       }
     }
     std::sort(layout_.free_bodies.begin(), layout_.free_bodies.end());
+    if (spanning_.has_loops()) add_closures(layout_, bodies_, joints_, spanning_.is_cut);
     return std::move(layout_);
   }
 
@@ -57,6 +71,7 @@ class Builder {
   void collect_edges() {
     std::vector<std::pair<std::int32_t, Edge>> list;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (spanning_.is_cut[j] != 0) continue;
       const std::int32_t a = position(joints_[j]->a), b = position(joints_[j]->b);
       const auto joint = static_cast<std::int32_t>(j);
       const Edge forward{joint, b, true}, backward{joint, a, false};
@@ -142,18 +157,23 @@ class Builder {
   }
 
   void grow_from_ground(std::int32_t body, const Edge& edge) {
-    PANTIN_EXPECTS(layout_.link_of_body[static_cast<std::size_t>(body)] < 0,
-                   "joint '" + joints_[static_cast<std::size_t>(edge.joint)]->name +
-                       "' closes a loop through the ground");
-    begin_tree();
     Pose X_LB;
     TreeLink link = tied_by(edge, Pose{}, X_LB);
     link.ground = edge.other;
     const bool animated =
         edge.other >= 0 && bodies_.kinds[static_cast<std::size_t>(edge.other)] == BodyKind::Animated;
-    layout_.trees.back().follows_driver = animated;
+    Tree& tree = layout_.trees.back();
+    tree.follows_driver = tree.follows_driver || animated;
     add_link(link, static_cast<std::uint32_t>(body), X_LB);
     grow();
+  }
+
+  /// All trees that loops join are one.
+  void build_mechanism(std::int32_t mechanism) {
+    begin_tree();
+    for (const auto& [body, edge] : grounded_) {
+      if (spanning_.mechanism[static_cast<std::size_t>(body)] == mechanism) grow_from_ground(body, edge);
+    }
     end_tree();
   }
 
@@ -224,6 +244,7 @@ class Builder {
 
   const BodyStore& bodies_;
   std::span<const JointDefinition* const> joints_;
+  SpanningTree spanning_{};
   TreeLayout layout_{};
   std::vector<std::pair<std::int32_t, Edge>> grounded_{};
   std::vector<std::size_t> first_edge_{};
@@ -240,6 +261,31 @@ std::size_t TreeLayout::tree_of(std::int32_t link) const {
   const auto after = std::upper_bound(trees.begin(), trees.end(), static_cast<std::uint32_t>(link),
                                       [](std::uint32_t l, const Tree& t) { return l < t.links_begin; });
   return static_cast<std::size_t>(after - trees.begin()) - 1;
+}
+
+std::size_t TreeLayout::tree_of_closure(std::int32_t closure) const {
+  const auto after = std::upper_bound(trees.begin(), trees.end(), static_cast<std::uint32_t>(closure),
+                                      [](std::uint32_t c, const Tree& t) { return c < t.closures_end; });
+  return static_cast<std::size_t>(after - trees.begin());
+}
+
+bool TreeLayout::stands_on(const Tree& tree, std::int32_t ground) const {
+  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
+    if (links[i].parent < 0 && links[i].joint >= 0 && links[i].ground == ground) return true;
+  }
+  for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
+    for (const ClosureEnd* end : {&closures[c].a, &closures[c].b}) {
+      if (end->link < 0 && end->ground == ground) return true;
+    }
+  }
+  return false;
+}
+
+const Pose& TreeLayout::pose_in_link(std::uint32_t body) const {
+  const TreeLink& link = links[static_cast<std::size_t>(link_of_body[body])];
+  std::uint32_t m = link.members_begin;
+  while (members[m].body != body) ++m;
+  return members[m].X_LB;
 }
 
 TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints) {

@@ -1,7 +1,8 @@
 #pragma once
 // Joined bodies as the solver sees them: trees of links, parents first. A link is one body or several that
 // Fixed joints make one; its frame L sits at the joint that ties it to its parent. Bodies that are not
-// simulated are ground: a tree hangs on at most one of them, or floats.
+// simulated are ground: a tree hangs on one of them, or floats, or, where closed loops of joints are cut, on
+// several.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -40,11 +41,41 @@ struct TreeLink {
   const Driver* driver{nullptr};
 };
 
-/// A range of links that move together.
+/// One side of a cut joint: the joint frame as it is fixed in a link or in a ground body.
+struct ClosureEnd {
+  std::int32_t link{-1};    ///< -1 = ground
+  std::int32_t ground{-1};  ///< body position of the ground; -1 = the world
+  kernel::Mat3<double> R_LJ{};
+  kernel::Vec3<double> p_LJ{};
+};
+
+/// A link that a closure's forces pass through on their way to the ground.
+struct PathLink {
+  std::uint32_t link{0};
+  std::int32_t up{-1};     ///< where its parent stands in the same path, counted from the path's begin
+  std::uint32_t rates{0};  ///< where its rates begin among those of the path
+};
+
+/// A joint that is cut to make a tree of a loop, and holds its bodies together by rows instead.
+struct Closure {
+  std::int32_t joint{-1};  ///< position
+  JointKind kind{JointKind::Fixed};
+  std::uint32_t rows{0};
+  ClosureEnd a{}, b{};
+  double pitch{0};  ///< [m/rad] of a screw
+  std::array<double, 3> damping{};
+  const Driver* driver{nullptr};
+  std::uint32_t path_begin{0}, path_end{0};  ///< links that it moves, children first
+  std::uint32_t path_rates{0};
+};
+
+/// A range of links that move together; where loops join several trees, all of these.
 struct Tree {
   std::uint32_t links_begin{0}, links_end{0};
   std::uint32_t q_begin{0}, q_end{0}, v_begin{0}, v_end{0};
+  std::uint32_t closures_begin{0}, closures_end{0};
   bool follows_driver{false};  ///< an animated ground or a driven joint
+  [[nodiscard]] bool has_closures() const noexcept { return closures_begin != closures_end; }
 };
 
 /// How bodies and joints are laid out for the solver.
@@ -53,21 +84,24 @@ struct TreeLayout {
   std::vector<TreeLink> links{};
   std::vector<TreeMember> members{};
   std::vector<Tree> trees{};
+  std::vector<Closure> closures{};           ///< of a tree side by side
+  std::vector<PathLink> paths{};             ///< of a closure side by side
   std::vector<std::int32_t> link_of_body{};  ///< by body position; -1 = in no tree
   std::vector<std::int32_t>
-      link_of_joint{};                     ///< by joint position: the link it ties to its parent; -1 = none
-  std::uint32_t coordinates{0}, rates{0};  ///< of all trees
+      link_of_joint{};  ///< by joint position: the link it ties to its parent; -1 = none
+  std::vector<std::int32_t> closure_of_joint{};  ///< by joint position; -1 = it is not cut
+  std::uint32_t coordinates{0}, rates{0};        ///< of all trees
 
   [[nodiscard]] std::size_t tree_of(std::int32_t link) const;
+  [[nodiscard]] std::size_t tree_of_closure(std::int32_t closure) const;
+  /// Whether a tree is held by this body, which is not simulated.
+  [[nodiscard]] bool stands_on(const Tree& tree, std::int32_t ground) const;
+  /// Pose of a body's origin in its link.
+  [[nodiscard]] const Pose& pose_in_link(std::uint32_t body) const;
 };
 
-/// A joint with the positions of its bodies (-1 = ground: the world or a body that is not simulated).
-struct JointEnds {
-  std::int32_t a{-1}, b{-1};
-};
-
-/// Lays out all simulated bodies. `joints` by position; joints between two grounds are idle. Closed loops
-/// must have been refused before.
+/// Lays out all simulated bodies. `joints` by position; joints between two grounds are idle. Of closed loops
+/// the joints that span_trees (spanning_tree.hpp) cuts become closures.
 [[nodiscard]] TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints);
 
 }  // namespace pantin

@@ -77,8 +77,7 @@ class DormandPrince final : public Integrator {
       }
       std::copy(q1_.begin(), q1_.end(), q.begin());
       std::copy(v1_.begin(), v1_.end(), v.begin());
-      std::swap(K_[0], K_[6]);
-      std::swap(L_[0], L_[6]);
+      go_on(dynamics, last ? end : t + done + part, last, q, v);
       ++control_.accepted;
       control_.shortest = std::min(control_.shortest, part);
       // A part cut short by the end of the step says nothing against the step proposed before.
@@ -97,6 +96,17 @@ class DormandPrince final : public Integrator {
     for (std::span<double>& l : L_) l = work_.take(v);
     q1_ = work_.take(q), v1_ = work_.take(v);
     q_sum_ = work_.take(q), v_sum_ = work_.take(v);
+  }
+
+  /// The last stage is the first of the next part, unless constraints move the state away from it.
+  void go_on(Dynamics& dynamics, double t, bool last, std::span<double> q, std::span<double> v) {
+    if (!dynamics.has_constraints() || last) {
+      std::swap(K_[0], K_[6]);
+      std::swap(L_[0], L_[6]);
+      return;
+    }
+    dynamics.settle({t, Side::Before}, q, v);
+    dynamics.derivative({t, Side::Before}, q, v, K_[0], L_[0]);
   }
 
   /// Stages two to seven; the last one stands at (q1, v1), the solution at `end`.

@@ -57,6 +57,9 @@ class Dynamics {
   /// Brings q and v back to the manifold (unit quaternions, constraints that only the dynamics sees) without
   /// changing numbers that are on it.
   virtual void settle(Instant at, std::span<double> q, std::span<double> v) { (void)at, (void)q, (void)v; }
+  /// Whether `settle` may change more than lengths of quaternions, so that a derivative known from before it
+  /// is no longer that of the settled state.
+  [[nodiscard]] virtual bool has_constraints() const { return false; }
   /// How far bodies are off where q' is wrong by `q_error` and v' by `v_error` over a step of h from (q, v),
   /// per unit time: the greatest distance [m/s] or angle [rad/s], an error of velocity counting h times.
   /// Unless told otherwise, every number counts as a metre.

@@ -48,6 +48,7 @@ class CoupledDynamics final : public Dynamics, public WrenchSource {
   void settle(Instant at, std::span<double> q, std::span<double> v) override {
     world_.settle(at, q.first(world_.coordinates()), v.first(world_.velocities()));
   }
+  [[nodiscard]] bool has_constraints() const override { return world_.has_constraints(); }
   [[nodiscard]] double motion_error(std::span<const double> q, std::span<const double> v,
                                     std::span<const double> q_error, std::span<const double> v_error,
                                     double h) override;

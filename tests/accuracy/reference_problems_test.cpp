@@ -35,10 +35,13 @@ const std::map<std::string, ExpectedErrors> kComesOut{
     {"heavy_top_nutation", {5e-4, 9e-8, 2e-6, 2e-8}},
     {"heavy_top_slow", {2e-3, 2e-7, 6e-7, 2e-8}},
     {"mass_ratio_1e6_spring", {2e-3, 7e-8, 0, 2e-11}},
+    {"n_four_bar_N1", {2e-3, 2e-8, 2e-8, 1e-8}},
+    {"n_four_bar_N2", {2e-3, 2e-8, 2e-8, 1e-8}},
     {"rheonomic_furuta", {2e-3, 5e-10, 2e-9, 4e-10}},
     {"rheonomic_rotating_arm", {2e-3, 7e-8, 3e-7, 3e-8}},
     {"simple_pendulum_A01", {2e-3, 7e-10, 8e-10, 3e-11}},
     {"simple_pendulum_rotating", {2e-3, 4e-9, 7e-9, 9e-11}},
+    {"slider_crank", {2e-3, 3e-7, 2e-6, 3e-7}},
     {"slider_incline_spring_damper", {2e-3, 9e-9, 0, 9e-9}},
     {"slider_incline_spring_overdamped", {2e-3, 2e-8, 0, 3e-7}},
     {"two_mass_soft_stiff_k1e3", {1e-3, 2e-7, 0, 3e-7}},
@@ -47,19 +50,14 @@ const std::map<std::string, ExpectedErrors> kComesOut{
 
 /// What must be said, with its place, about the problems that physics does not know yet.
 const std::map<std::string, std::vector<const char*>> kRefused{
-    {"andrews_squeezer", {"#/joints/", "closes a loop"}},
     {"block_friction_flat", {"#/contacts/0: error: contact box_plane: "}},
     {"block_friction_stop", {"#/contacts/0: error: contact box_plane: "}},
     {"block_friction_uphill_return", {"#/contacts/0: error: contact box_plane: "}},
     {"bouncing_ball_e08", {"#/contacts/0: error: contact sphere_plane: "}},
     {"bouncing_ball_e09_moon", {"#/contacts/0: error: contact sphere_plane: "}},
     {"bouncing_ball_elastic", {"#/contacts/0: error: contact sphere_plane: "}},
-    {"n_four_bar_N1", {"#/joints/3: error: joint ", "closes a loop"}},
-    {"n_four_bar_N2", {"#/joints/", "closes a loop"}},
-    {"n_four_bar_N40", {"#/joints/", "closes a loop"}},
     {"rod_rod_collision_e0", {"#/contacts/0: error: contact capsule_capsule: "}},
     {"rod_rod_collision_e05", {"#/contacts/0: error: contact capsule_capsule: "}},
-    {"slider_crank", {"#/joints/3: error: joint ", "closes a loop"}},
 };
 
 /// The folder, or the test skipped with the reason.
@@ -150,6 +148,40 @@ INSTANTIATE_TEST_SUITE_P(Reference, ParticleProblemFile,
                                          ParticleProblem{"stiff_spring_mass_k1e2", 1e-13, 2e-13, 1e-13},
                                          ParticleProblem{"stiff_spring_mass_k1e4", 1e-12, 5e-13, 5e-13}),
                          [](const auto& test) { return std::string{test.param.name}; });
+/// Problems with closed loops, a tolerance of dormand-prince and bounds, about ten times what was found when
+/// they were written down. Where a stage happens to fall within 1e-5 rad of a position with all bars in line,
+/// rounding is multiplied: with 40 loops, 40 m wide, that gave 3e-7 at steps of 0.1 s, and 1e-9 at one step a
+/// sample.
+struct LoopCase {
+  const char* name;
+  double tolerance, position, attitude;
+};
+
+class ReferenceLoop : public testing::TestWithParam<LoopCase> {};
+
+TEST_P(ReferenceLoop, ComesOutToTheTolerance) {
+  // Redundant loops (pivots in space hold planar mechanisms), four-bars that pass through positions in which
+  // all bars are in line, where the solver must stay on its branch: the samples are closed forms or 80-bit
+  // solutions, good to 1e-13. Bounds are absolute; loops stay closed to rounding.
+  REQUIRE_REFERENCE_FOLDER(folder);
+  const LoopCase& wanted = GetParam();
+  const std::optional<ReferenceProblem> problem = loaded(folder / (std::string{wanted.name} + ".json"));
+  ASSERT_TRUE(problem.has_value());
+  const RunErrors errors = run(*problem, {.tolerance = wanted.tolerance, .step = 0.1});
+  EXPECT_EQ(errors.failure, "");
+  EXPECT_GT(errors.compared, 0u);
+  EXPECT_LE(errors.position, wanted.position);
+  EXPECT_LE(errors.attitude, wanted.attitude);
+  EXPECT_LE(errors.joint_drift, 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, ReferenceLoop,
+                         testing::Values(LoopCase{"andrews_squeezer", 1e-9, 1e-12, 1e-10},
+                                         LoopCase{"slider_crank", 1e-11, 1e-11, 1e-11},
+                                         LoopCase{"n_four_bar_N1", 1e-10, 1e-8, 1e-8},
+                                         LoopCase{"n_four_bar_N2", 1e-10, 1e-7, 1e-7},
+                                         LoopCase{"n_four_bar_N40", 1e-9, 3e-6, 3e-6}),
+                         [](const auto& test) { return test_name(test.param.name); });
 
 TEST(ReferenceProblems, LongRunKeepsEnergy) {
   // A free body's energy is conserved for 1000 s, although its attitude is long lost. rk4 gains or loses c

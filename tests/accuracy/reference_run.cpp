@@ -11,6 +11,8 @@
 #include <fstream>
 #include <iterator>
 
+#include <pantin/physics/integrators/dormand_prince.hpp>
+
 namespace pantin::test {
 namespace fs = std::filesystem;
 

@@ -1,0 +1,99 @@
+// Rows between links through the factor of the elimination. Since M^-1 = P^T D^-1 P with P the inward pass, a
+// row costs one inward pass along its path, and products of rows are sums over the joints that they share (G.
+// Rodriguez, A. Jain, K. Kreutz-Delgado, Int. J. Robotics Research 10, 371 (1991)).
+#include <algorithm>
+
+#include <pantin/physics/constraints/articulated.hpp>
+#include <pantin/physics/constraints/joint_models.hpp>
+
+namespace pantin {
+
+using kernel::cross;
+using kernel::dot;
+
+void Articulated::load_inertia(const TreeLayout& layout, const Tree& tree) {
+  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
+    start_inertia(layout.links[i], work_[i]);
+    work_[i].p_a = work_[i].p_l = {};
+  }
+}
+
+template <int N>
+void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, Vec& p_a, Vec& p_l, double* y,
+                              Reduction& sum) const {
+  const double angular = dot(p_a, p_a), linear = dot(p_l, p_l);
+  const Vec a = p_a, l = p_l;
+  for (int j = 0; j < N; ++j) {
+    const auto J = link.v + static_cast<std::uint32_t>(j);
+    y[j] = -dot(S_a_[J], a) - dot(S_l_[J], l);
+    double bound = angular * dot(S_a_[J], S_a_[J]) + linear * dot(S_l_[J], S_l_[J]);
+    for (int k = 0; k < j; ++k) {
+      const double l_jk = D_[J][static_cast<std::size_t>(k)];
+      y[j] -= l_jk * y[k];
+      bound += l_jk * l_jk * y[k] * y[k];
+    }
+    const double by_d = 1 / D_[J][static_cast<std::size_t>(j)], s = y[j] * by_d;
+    sum.squares += y[j] * s;
+    sum.bound += bound * by_d;
+    p_a += s * U_a_[J];
+    p_l += s * U_l_[J];
+  }
+  p_a += cross(work.r, p_l);
+}
+
+Articulated::Reduction Articulated::reduce(const TreeLayout& layout, const Closure& closure,
+                                           const RowWrench& row, std::span<Passing> passing,
+                                           std::span<double> y) const {
+  Reduction sum;
+  const std::uint32_t count = closure.path_end - closure.path_begin;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const PathLink& at = layout.paths[closure.path_begin + k];
+    const LinkWork& work = work_[at.link];
+    Passing& here = passing[k];
+    here = {};
+    // As bias, so with the sign turned: what acts on B is taken away from it.
+    const double on_b = static_cast<std::int32_t>(at.link) == closure.b.link ? 1 : 0;
+    const double on_a = static_cast<std::int32_t>(at.link) == closure.a.link ? 1 : 0;
+    if (on_b == on_a) continue;
+    const double sign = on_a - on_b;
+    here.p_l = sign * row.force;
+    here.p_a = sign * (row.torque + cross(row.point - work.p, row.force));
+  }
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const PathLink& at = layout.paths[closure.path_begin + k];
+    const TreeLink& link = layout.links[at.link];
+    Passing& here = passing[k];
+    with_model(link, [&](auto model) {
+      reduce_link<decltype(model)::kRates>(link, work_[at.link], here.p_a, here.p_l, y.data() + at.rates,
+                                           sum);
+    });
+    if (at.up < 0) continue;
+    passing[static_cast<std::size_t>(at.up)].p_a += here.p_a;
+    passing[static_cast<std::size_t>(at.up)].p_l += here.p_l;
+  }
+  return sum;
+}
+
+double Articulated::product(const TreeLayout& layout, std::uint32_t index, const double* y,
+                            const double* z) const {
+  const TreeLink& link = layout.links[index];
+  double sum = 0;
+  with_model(link, [&](auto model) {
+    for (std::uint32_t j = 0; j < std::uint32_t{decltype(model)::kRates}; ++j) {
+      sum += y[j] * z[j] / D_[link.v + j][j];
+    }
+  });
+  return sum;
+}
+
+void Articulated::push(const TreeLayout& layout, const Closure& closure, double multiplier,
+                       std::span<const double> y) {
+  for (std::uint32_t k = closure.path_begin; k < closure.path_end; ++k) {
+    const PathLink& at = layout.paths[k];
+    const TreeLink& link = layout.links[at.link];
+    const std::uint32_t next = k + 1 < closure.path_end ? layout.paths[k + 1].rates : closure.path_rates;
+    for (std::uint32_t j = 0; j + at.rates < next; ++j) u_[link.v + j] += multiplier * y[at.rates + j];
+  }
+}
+
+}  // namespace pantin

@@ -1,0 +1,77 @@
+#pragma once
+// Multipliers of closures: what must act in the cut joints of loops so that they hold. With J the rows, M the
+// inertia of the tree and b what the rows lack,
+//
+//   W lambda = b,   W = J M^-1 J^T = Y^T D^-1 Y,
+//
+// where Y is what a row's unit wrenches leave at the joints on their way to the ground (Articulated::reduce),
+// D the joints' own inertia. Rows are scaled to what W_ii would be were every lever at its best (not to W_ii,
+// which vanishes where a loop is singular). Loops may be redundant and pass through singular positions, so W
+// need not have an inverse: the proximal solve
+//
+//   K = W + mu 1,  lambda = K^-1 b,  then four times lambda += K^-1 (b - W lambda)
+//
+// (N. Parikh, S. Boyd, Proximal Algorithms, 2014, 4.1; J. Carpentier, R. Budhiraja, N. Mansard, Proximal and
+// Sparse Resolution of Constrained Dynamic Equations, RSS 2021) leaves a part (mu / (mu + s))^5 of what
+// belongs to a singular value s of W; the motion is unique, the multipliers are the smallest. W is stored and
+// factored within its envelope, so that a chain of loops costs what its loops cost.
+#include <vector>
+
+#include <pantin/physics/constraints/closure.hpp>
+
+namespace pantin {
+
+/// What b says the rows lack.
+enum class ClosureLevel { Position, Velocity, Acceleration };
+
+/// Work space and verbs on the closures of one tree at a time. Nothing is allocated after resize.
+class ClosureSolver {
+ public:
+  void resize(const TreeLayout& layout);
+
+  /// Adds the wrenches of damping in cut joints to the tree as placed and loaded.
+  static void add_damping(const TreeLayout& layout, const Tree& tree, Articulated& kernel,
+                          std::span<const RigidMotion> grounds, Instant at);
+  /// Rows of the tree as placed, accelerations as last substituted.
+  void measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
+               std::span<const RigidMotion> grounds, Instant at);
+  /// Multipliers for the tree as measured, with the factor that the kernel holds.
+  void factor(const TreeLayout& layout, const Tree& tree, const Articulated& kernel);
+  /// Solves for multipliers, and adds what they leave at the joints to the kernel's right-hand side: the next
+  /// substitution feels them.
+  void solve(const TreeLayout& layout, const Tree& tree, ClosureLevel level, Articulated& kernel);
+
+  /// Greatest gap over its rounding: up to one it is nothing but rounding.
+  [[nodiscard]] double gap_in_roundings(const Tree& tree) const;
+  /// The same of the rates of gaps.
+  [[nodiscard]] double rate_in_roundings(const Tree& tree) const;
+  /// Sum of the squares of all gaps [m^2] or [rad^2].
+  [[nodiscard]] double gap_squared(const Tree& tree) const;
+
+  [[nodiscard]] std::span<const ClosureRow> rows(std::uint32_t closure) const;
+  /// Force at Jb's origin and torque on B of a closure by the last multipliers.
+  [[nodiscard]] ClosureWrench wrench(std::uint32_t closure) const;
+
+ private:
+  void assemble(const TreeLayout& layout, const Tree& tree, const Articulated& kernel);
+  void assemble_block(const TreeLayout& layout, std::uint32_t c, std::uint32_t d, const Articulated& kernel);
+  void factor_envelope(std::uint32_t begin, std::uint32_t end);
+  void substitute_envelope(std::uint32_t begin, std::uint32_t end, std::vector<double>& x) const;
+  void multiply(std::uint32_t begin, std::uint32_t end, const std::vector<double>& x,
+                std::vector<double>& out) const;
+
+  struct Place {
+    std::uint32_t row{0};   ///< first row
+    std::size_t y{0};       ///< first number of Y
+    std::uint32_t left{0};  ///< first row of its tree that shares a link with it
+  };
+  std::vector<Place> places_{};        ///< by closure, and one behind the last
+  std::vector<std::size_t> row_at_{};  ///< by row: where W(row, left) stands
+  std::vector<std::uint32_t> left_{};  ///< by row
+  std::vector<ClosureRow> rows_{};
+  std::vector<double> y_{}, W_{}, K_{};
+  std::vector<Articulated::Passing> passing_{};
+  std::vector<double> scale_{}, b_{}, lambda_{}, residual_{}, multiplier_{};
+};
+
+}  // namespace pantin

@@ -1,0 +1,88 @@
+// solve() on all reference problems, as `pantin solve` runs them: the solver chosen by itself, one tolerance.
+#include <pantin/bridge/problems/solve.hpp>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "reference_run.hpp"
+
+namespace pantin::test {
+namespace {
+
+constexpr double kTolerance = 1e-10;
+
+/// Where the greatest error may pass 1e-8 at this tolerance, and why.
+struct Excuse {
+  double bound;
+  const char* reason;
+};
+const std::map<std::string, Excuse> kConditioning{
+    {"dzhanibekov_long_run", {4, "a body that turns over its middle axis loses its attitude exponentially"}},
+    {"free_box_gazebo_complex", {1e-6, "turns near its middle axis for 10 s: errors grow a thousandfold"}},
+    {"kepler_e09", {1e-7, "ten orbits of eccentricity 0.9: errors of speed become errors of phase"}},
+    {"kepler_inclined_e06", {1e-7, "twenty orbits: errors of speed become errors of phase"}},
+    {"n_four_bar_N40", {1e-7, "passes positions with 81 bars in line, where rounding is multiplied"}},
+    {"rheonomic_rotating_arm", {3e-7, "swings over the top: errors grow a hundredfold"}},
+    {"simple_pendulum_A01", {1e-5, "2000 s: errors of energy become errors of phase"}},
+    {"simple_pendulum_rotating", {2e-7, "20 s near the top: errors of energy become errors of phase"}},
+};
+
+TEST(Solve, MeetsTheReferencesAtItsOwnChoice) {
+  // Whatever has no contacts finishes, and lies within 1e-8 m and rad of the references, which are good to
+  // 1e-10 and better, at 1e-10 a second; but for problems that multiply any error, which are listed.
+  const auto folder = reference_folder();
+  if (folder.empty()) GTEST_SKIP() << "no folder of reference problems beside the sources";
+  int solved = 0;
+  for (const auto& file : problems_in(folder)) {
+    if (file.stem() == "stiff_spring_mass_k1e10") continue;  // 354,000 steps: `pantin solve` takes 4 s for it
+    const std::optional<ReferenceProblem> problem = loaded(file);
+    ASSERT_TRUE(problem.has_value());
+    const SolveResult result = solve(*problem, {.tolerance = kTolerance});
+    if (!problem->contacts.empty()) {
+      EXPECT_EQ(result.status, SolveStatus::Refused) << file;
+      continue;
+    }
+    ASSERT_EQ(result.status, SolveStatus::Ok) << file << (result.messages.empty() ? "" : result.messages[0]);
+    const auto excuse = kConditioning.find(file.stem().string());
+    const double bound = excuse == kConditioning.end() ? 1e-8 : excuse->second.bound;
+    EXPECT_LE(result.position_error.value_or(0), bound) << file;
+    EXPECT_LE(result.attitude_error.value_or(0), bound) << file;
+    EXPECT_LE(result.joint_drift, 1e-12) << file;
+    EXPECT_EQ(result.states.size(), problem->samples.size());
+    ++solved;
+  }
+  EXPECT_GE(solved, 30);
+}
+
+TEST(Solve, FindsIslandsAndTheirSolvers) {
+  // Two bodies joined are one island, a third by itself another; a loop asks for short steps everywhere,
+  // because one integrator drives all.
+  reference::Problem problem;
+  for (const char* name : {"a", "b", "c"}) problem.bodies.push_back({.name = name});
+  problem.joints.push_back({.name = "ab", .a = "a", .b = "b"});
+  problem.joints.push_back({.name = "wa", .b = "a"});
+  std::vector<IslandChoice> choices = choose_solvers(problem, 1e-10);
+  ASSERT_EQ(choices.size(), 2u);
+  EXPECT_EQ(choices[0].bodies, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(choices[1].bodies, (std::vector<std::string>{"c"}));
+  EXPECT_EQ(choices[0].solver, "gauss16");
+  EXPECT_EQ(choose_solvers(problem, 1e-3)[0].solver, "gauss8");
+  problem.joints.push_back({.name = "wb", .b = "b"});  // through the world
+  choices = choose_solvers(problem, 1e-10);
+  EXPECT_EQ(choices[0].solver, "dormand-prince");
+  EXPECT_EQ(choices[1].solver, "gauss16");
+}
+
+TEST(Solve, RefusesSettingsThatMeanNothing) {
+  // Each with its remedy.
+  EXPECT_NE(problem_with(SolveSettings{.integrator = "leapfrog"})->remedy.find("auto"), std::string::npos);
+  EXPECT_EQ(problem_with(SolveSettings{.integrator = "rk4"})->remedy, "give a step");
+  EXPECT_TRUE(problem_with(SolveSettings{.tolerance = -1}));
+  EXPECT_TRUE(problem_with(SolveSettings{.step = 0.0}));
+  EXPECT_TRUE(problem_with(SolveSettings{.repeats = 0}));
+  EXPECT_FALSE(problem_with(SolveSettings{}));
+}
+
+}  // namespace
+}  // namespace pantin::test
