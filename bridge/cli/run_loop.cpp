@@ -54,9 +54,10 @@ class Run {
     if (!report.last.ok()) {
       outcome_.code = ExitCode::NumericalFailure;
       const bool culprit_is_named = has_error(report.notes);
-      job_.ledger.add({Severity::Error, "t = " + short_number(report.time) + " s", "simulation",
-                       "stopped early" + (culprit_is_named ? "" : ": " + report.last.message),
-                       "try a smaller --step, or --integrator implicit-midpoint; what was reached until then is kept"});
+      job_.ledger.add(
+          {Severity::Error, "t = " + short_number(report.time) + " s", "simulation",
+           "stopped early" + (culprit_is_named ? "" : ": " + report.last.message),
+           "try a smaller --step, or --integrator implicit-midpoint; what was reached until then is kept"});
       return false;
     }
     return continues();

@@ -5,7 +5,6 @@
 
 #include <pantin/bridge/cli/configure_links.hpp>
 #include <pantin/physics/forces/gravity.hpp>
-#include <pantin/physics/integrators/dormand_prince.hpp>
 
 namespace pantin::cli {
 namespace {
@@ -69,9 +68,8 @@ void build_world(const RunOptions& options, RunWorld& world, Ledger& ledger) {
     place(placed, options, world, ledger);
     note_what_is_left_out(placed, ledger);
   }
-  world.physics.set_integrator(options.integrator == "dormand-prince"
-                                   ? make_dormand_prince({.tolerance = options.tolerance})
-                                   : make_integrator(options.integrator));
+  std::unique_ptr<Integrator> controlled = make_integrator(options.integrator, options.tolerance);
+  world.physics.set_integrator(controlled ? std::move(controlled) : make_integrator(options.integrator));
   world.physics.forces().add(
       Gravity{.g_W = options.gravity.value_or(-kStandardGravity * direction_of(world.up))});
 

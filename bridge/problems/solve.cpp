@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include <pantin/bridge/problems/rigid_ref.hpp>
-#include <pantin/physics/integrators/dormand_prince.hpp>
-#include <pantin/physics/integrators/gauss.hpp>
 #include <pantin/physics/physics_manager.hpp>
 
 namespace pantin {
@@ -21,14 +19,6 @@ double cpu_now() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// An integrator that keeps to a tolerance; null where it has no control of its steps.
-std::unique_ptr<Integrator> make_controlled(const std::string& name, double tolerance) {
-  if (name == "gauss8") return make_gauss({.stages = 4, .tolerance = tolerance});
-  if (name == "gauss16") return make_gauss({.stages = 8, .tolerance = tolerance});
-  if (name == "dormand-prince") return make_dormand_prince({.tolerance = tolerance});
-  return nullptr;
 }
 
 double attitude_error(const Quaternion& q, const Quaternion& q_ref) {
@@ -60,7 +50,7 @@ class Run {
     built_ = std::move(*built.value);
     const double infinite = std::numeric_limits<double>::infinity();
     std::unique_ptr<Integrator> controlled =
-        make_controlled(result_.integrator, settings_.step ? infinite : settings_.tolerance);
+        make_integrator(result_.integrator, settings_.step ? infinite : settings_.tolerance);
     physics_.set_integrator(controlled ? std::move(controlled) : make_integrator(result_.integrator));
     return true;
   }
@@ -218,7 +208,7 @@ std::optional<SettingsProblem> problem_with(const SolveSettings& settings) {
     return SettingsProblem{ProblemCode::OutOfRange, "no integrator is called '" + settings.integrator + "'",
                            "give auto or one that integrator_names() lists"};
   }
-  const bool controlled = settings.integrator == "auto" || make_controlled(settings.integrator, 1) != nullptr;
+  const bool controlled = settings.integrator == "auto" || make_integrator(settings.integrator, 1) != nullptr;
   if (!settings.step && !controlled) {
     return SettingsProblem{ProblemCode::OutOfRange,
                            "integrator '" + settings.integrator + "' keeps to no tolerance", "give a step"};

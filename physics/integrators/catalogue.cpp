@@ -44,6 +44,13 @@ std::unique_ptr<Integrator> Integrator::another() const {
   return made != nullptr ? std::move(made) : make_rk4();
 }
 
+std::unique_ptr<Integrator> make_integrator(std::string_view name, double tolerance) {
+  if (name == "dormand-prince") return make_dormand_prince({.tolerance = tolerance});
+  if (name == "gauss8") return make_gauss({.stages = 4, .tolerance = tolerance});
+  if (name == "gauss16") return make_gauss({.stages = 8, .tolerance = tolerance});
+  return nullptr;
+}
+
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
   for (const CatalogueEntry& entry : kCatalogue) names.emplace_back(entry.name);

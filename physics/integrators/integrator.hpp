@@ -113,6 +113,9 @@ class Integrator {
 
 /// A new integrator by name; null for an unknown name.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(std::string_view name);
+/// One that keeps to a tolerance: local error per unit time of body position [m/s] and attitude [rad/s], > 0;
+/// infinity: no control. Null for an unknown name or an integrator that does not choose its steps.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(std::string_view name, double tolerance);
 /// All known names: "euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint", "dormand-prince",
 /// "gauss8", "gauss16".
 [[nodiscard]] std::vector<std::string> integrator_names();
