@@ -62,7 +62,8 @@ void add_time(CLI::App& app, RunOptions& options) {
   app.add_option("--integrator", options.integrator, "Integrator, default rk4")
       ->check(CLI::IsMember(integrator_names()));
   add_checked(app, "--tolerance", complaint_about_positive, number(options.tolerance),
-              "Error that dormand-prince, gauss8 or gauss16 may make a second [m] and [rad], default 1e-9")
+              "Error that dormand-prince, gauss8, gauss16 or radau may make a second [m] and [rad], "
+              "default 1e-9")
       ->type_name("TOL");
 }
 
@@ -110,7 +111,7 @@ void add_run_command(CLI::App& program, Command& chosen) {
     if (app->count("--tolerance") > 0 && make_integrator(options->integrator, options->tolerance) == nullptr)
       throw CLI::ValidationError(
           "--tolerance",
-          "only dormand-prince, gauss8 and gauss16 have a tolerance, not " + options->integrator);
+          "only dormand-prince, gauss8, gauss16 and radau have a tolerance, not " + options->integrator);
     chosen = [options] { return run(*options); };
   });
 }

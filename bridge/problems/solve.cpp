@@ -187,15 +187,18 @@ class Run {
 
 namespace {
 
-/// One integrator drives all islands: what suits loops is good enough for the others.
+/// One integrator drives all islands: what suits loops, or else stiff motion, is good enough for the others.
 std::string common_choice(std::vector<IslandChoice>& islands) {
   if (islands.empty()) return "gauss16";
   std::string common = islands.front().solver;
-  for (const IslandChoice& island : islands) {
-    if (island.solver == "dormand-prince") common = island.solver;
+  for (const char* strong : {"radau", "dormand-prince"}) {
+    for (const IslandChoice& island : islands) {
+      if (island.solver == strong) common = strong;
+    }
   }
   for (IslandChoice& island : islands) {
-    if (island.solver != common) island.reason = "one integrator drives all islands, and another has a loop";
+    if (island.solver != common)
+      island.reason = "one integrator drives all islands, and another needs this one";
     island.solver = common;
   }
   return common;

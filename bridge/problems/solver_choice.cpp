@@ -1,5 +1,6 @@
 #include <pantin/bridge/problems/solver_choice.hpp>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -86,6 +87,42 @@ class Islands {
   std::vector<Island> islands_{};
 };
 
+/// How fast a force on a point of a body moves it, at most [1/kg]; 0 for what no force moves.
+double mobility(const Problem& problem, const SpringEnd& end) {
+  for (const Body& body : problem.bodies) {
+    if (body.name != end.body) continue;
+    return 1 / body.mass.mass + end.point.squaredNorm() * body.mass.I_BBcm_B.inverse().norm();
+  }
+  for (const Particle& particle : problem.particles) {
+    if (particle.name == end.body) return 1 / particle.mass;
+  }
+  return 0;
+}
+
+/// The fastest rate at which a damper between `names` lets motion decay, were nothing else there [1/s].
+double fastest_decay(const Problem& problem, const std::vector<std::string>& names) {
+  double fastest = 0;
+  const auto is_here = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const Force& force : problem.forces) {
+    if (const auto* spring = std::get_if<Spring>(&force);
+        spring != nullptr && (is_here(spring->a.body) || is_here(spring->b.body))) {
+      fastest =
+          std::max(fastest, spring->damping * (mobility(problem, spring->a) + mobility(problem, spring->b)));
+    }
+    if (const auto* drag = std::get_if<Drag>(&force); drag != nullptr && is_here(drag->body)) {
+      const double rate = drag->coefficient * mobility(problem, {.body = drag->body});
+      fastest = std::max(fastest, rate);
+    }
+  }
+  return fastest;
+}
+
+/// Explicit iterations need a step for every few decay times: from so many of them on, that costs more than
+/// an implicit method.
+constexpr double kManyDecayTimes = 5e4;
+
 /// Below this tolerance sixteenth order needs fewer evaluations than eighth.
 constexpr double kHighOrderBelow = 1e-6;
 
@@ -99,6 +136,11 @@ std::vector<IslandChoice> choose_solvers(const ReferenceProblem& problem, double
     if (island.has_loop) {
       choice.solver = "dormand-prince";
       choice.reason = "closed loops may pass singular positions, where short steps keep to their branch";
+    } else if (const double decay = fastest_decay(problem, choice.bodies);
+               decay * problem.duration > kManyDecayTimes) {
+      choice.solver = "radau";
+      choice.reason =
+          "motion that decays at up to " + text_of(decay) + " /s, far faster than the problem lasts";
     } else {
       const bool high = tolerance < kHighOrderBelow;
       choice.solver = high ? "gauss16" : "gauss8";

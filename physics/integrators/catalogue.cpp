@@ -7,6 +7,7 @@
 #include <pantin/physics/integrators/euler.hpp>
 #include <pantin/physics/integrators/gauss.hpp>
 #include <pantin/physics/integrators/implicit_midpoint.hpp>
+#include <pantin/physics/integrators/radau.hpp>
 #include <pantin/physics/integrators/rk4.hpp>
 #include <pantin/physics/integrators/semi_implicit_euler.hpp>
 #include <pantin/physics/integrators/verlet.hpp>
@@ -28,6 +29,7 @@ constexpr std::array kCatalogue{
     CatalogueEntry{"dormand-prince", make_dormand_prince},
     CatalogueEntry{"gauss8", make_gauss8},
     CatalogueEntry{"gauss16", make_gauss16},
+    CatalogueEntry{"radau", make_radau},
 };
 
 }  // namespace
@@ -48,6 +50,7 @@ std::unique_ptr<Integrator> make_integrator(std::string_view name, double tolera
   if (name == "dormand-prince") return make_dormand_prince({.tolerance = tolerance});
   if (name == "gauss8") return make_gauss({.stages = 4, .tolerance = tolerance});
   if (name == "gauss16") return make_gauss({.stages = 8, .tolerance = tolerance});
+  if (name == "radau") return make_radau({.tolerance = tolerance});
   return nullptr;
 }
 

@@ -117,7 +117,7 @@ class Integrator {
 /// infinity: no control. Null for an unknown name or an integrator that does not choose its steps.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(std::string_view name, double tolerance);
 /// All known names: "euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint", "dormand-prince",
-/// "gauss8", "gauss16".
+/// "gauss8", "gauss16", "radau".
 [[nodiscard]] std::vector<std::string> integrator_names();
 
 }  // namespace pantin
