@@ -58,7 +58,8 @@ struct SolveResult {
   std::vector<SolvedState> states{};  ///< at every sample time; at the end where there is no sample
 };
 
-/// Builds the problem and runs it over its samples.
+/// Builds the problem and runs it over its samples. Where `auto` fails at the tolerance, as near singular
+/// positions of loops it may, it is tried at stricter ones, and a message says so.
 [[nodiscard]] SolveResult solve(const ReferenceProblem& problem, const SolveSettings& settings);
 
 }  // namespace pantin

@@ -55,6 +55,22 @@ TEST(Solve, MeetsTheReferencesAtItsOwnChoice) {
   EXPECT_GE(solved, 30);
 }
 
+TEST(Solve, TriesStricterTolerancesWhereOneFails) {
+  // Over tolerances of three decades a four-bar that passes positions with all bars in line finishes, with
+  // the closed form's motion; where other steps had to be taken a message says so.
+  const auto folder = reference_folder();
+  if (folder.empty()) GTEST_SKIP() << "no folder of reference problems beside the sources";
+  const std::optional<ReferenceProblem> problem = loaded(folder / "n_four_bar_N2.json");
+  ASSERT_TRUE(problem.has_value());
+  for (const double tolerance : {1e-8, 1e-9, 1e-10, 3e-11}) {
+    const SolveResult result = solve(*problem, {.tolerance = tolerance});
+    ASSERT_EQ(result.status, SolveStatus::Ok) << tolerance;
+    EXPECT_LE(result.position_error.value_or(1), 100 * tolerance + 1e-9) << tolerance;
+    for (const std::string& message : result.messages)
+      EXPECT_NE(message.find("not solved in the steps of a wider tolerance"), std::string::npos);
+  }
+}
+
 TEST(Solve, FindsIslandsAndTheirSolvers) {
   // Two bodies joined are one island, a third by itself another; a loop asks for short steps everywhere,
   // because one integrator drives all.
