@@ -52,7 +52,6 @@ void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
   }
   lane_.motions.resize(given * lanes::kMotionNumbers * count);
   lane_.wrenches.resize(lane_.links.size() * 6 * count);
-  lane_.link_motion.resize(lanes::kLinkMotionNumbers * count);
   lane_.work.resize(largest + kAlignment);
   lane_.q.resize(q_.size());
   lane_.v.resize(v_.size());

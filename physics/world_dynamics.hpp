@@ -118,7 +118,7 @@ class WorldDynamics final : public Dynamics {
     bool fits{false};  ///< to the bodies and trees of now
     std::vector<lanes::LinkConstants> links{};
     std::vector<lanes::FreeConstants> free{};
-    std::vector<double> motions{}, wrenches{}, link_motion{}, q{}, v{}, work{};
+    std::vector<double> motions{}, wrenches{}, q{}, v{}, work{};
   };
   void fit_lanes(const lanes::Kernel& kernel);
   void lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,

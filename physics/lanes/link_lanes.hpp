@@ -24,7 +24,7 @@ struct SpatialInertia {
 template <class T>
 struct LinkLanes {
   Mat3<T> R;
-  Vec3<T> p, r, w, v;
+  Vec3<T> r, w;
   Vec3<T> p_a, p_l;  ///< bias wrench about the link's origin
   union {
     struct {

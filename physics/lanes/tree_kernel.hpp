@@ -34,14 +34,6 @@ class TreeKernel {
     }
   }
 
-  static void motion(const Task& task, std::uint32_t i, double* out) {
-    const LinkLanes<T>& l = link(task, i);
-    for (int k = 0; k < 9; ++k) l.R.m[k].store(out + k * T::kCount);
-    store3(l.p, out + 9 * T::kCount);
-    store3(l.v, out + 12 * T::kCount);
-    store3(l.w, out + 15 * T::kCount);
-  }
-
   static void add_wrench(const Task& task, std::uint32_t i, const double* wrench) {
     LinkLanes<T>& l = link(task, i);
     const Vec f = load3<T>(wrench), t = load3<T>(wrench + 3 * T::kCount);
@@ -121,23 +113,18 @@ class TreeKernel {
   static T number(const Task& task, const double* of, std::uint32_t i) {
     return T::load(of + i * task.stages + task.first);
   }
-  static void store3(const Vec& v, double* to) {
-    v.x.store(to), v.y.store(to + T::kCount), v.z.store(to + 2 * T::kCount);
-  }
-
   template <class Model>
   static void place(const Task& task, const LinkConstants& c, const Model& model, LinkLanes<T>& out) {
     Mat3<T> R_p = Mat3<T>::identity();
-    Vec p_p{}, w_p{}, v_p{}, al_p{}, a_p{};
+    Vec w_p{}, al_p{}, a_p{};
     if (c.parent >= 0) {
       const LinkLanes<T>& up = link(task, static_cast<std::uint32_t>(c.parent));
-      R_p = up.R, p_p = up.p, w_p = up.w, v_p = up.v, al_p = up.motion.al, a_p = up.motion.a;
+      R_p = up.R, w_p = up.w, al_p = up.motion.al, a_p = up.motion.a;
     } else {
       if (c.ground >= 0) {
         const double* m = task.motions + static_cast<std::size_t>(c.ground) * kMotionNumbers * T::kCount;
-        R_p = load9<T>(m), p_p = load3<T>(m + 9 * T::kCount), w_p = load3<T>(m + 12 * T::kCount);
-        v_p = load3<T>(m + 15 * T::kCount), al_p = load3<T>(m + 18 * T::kCount);
-        a_p = load3<T>(m + 21 * T::kCount);
+        R_p = load9<T>(m), w_p = load3<T>(m + 12 * T::kCount);
+        al_p = load3<T>(m + 18 * T::kCount), a_p = load3<T>(m + 21 * T::kCount);
       }
       // Gravity is an acceleration of the ground the other way.
       a_p -= spread<T>(task.gravity);
@@ -185,7 +172,7 @@ class TreeKernel {
     const Vec w = w_p + w_rel;
     const Vec al = al_p + cross(w_p, w_rel) + al_rel;
     const Vec a = a_p + cross(al_p, r) + cross(w_p, w_p_x_r + v_rel + v_rel) + a_rel;
-    out.r = r, out.p = p_p + r, out.w = w, out.v = v_p + w_p_x_r + v_rel;
+    out.r = r, out.w = w;
     out.motion.al = al, out.motion.a = a;
     const Vec h = out.R * spread<T>(c.moment);
     const Sym3<T> A = own_inertia<T>(c, out.R);
@@ -289,7 +276,7 @@ class TreeKernel {
 template <class T>
 Kernel kernel_of(InstructionSet set) {
   using K = TreeKernel<T>;
-  return {set, T::kCount, K::work_size, K::outward, K::motion, K::add_wrench, K::solve, K::free_rates};
+  return {set, T::kCount, K::work_size, K::outward, K::add_wrench, K::solve, K::free_rates};
 }
 
 }  // namespace pantin::lanes

@@ -79,17 +79,14 @@ struct Kernel {
   int lanes{4};
   /// Numbers of work space for so many links with so many rates.
   std::size_t (*work_size)(std::size_t links, std::size_t rates){nullptr};
-  /// Poses, velocities, and the bias of the motion.
+  /// Attitudes, angular velocities, and the bias of the motion.
   void (*outward)(const Task&){nullptr};
-  /// Of a link, after outward: R (9), p, v, w, each at all lanes, to `out` (18 numbers).
-  void (*motion)(const Task&, std::uint32_t link, double* out){nullptr};
   /// Adds a wrench (force, and torque about the link's origin; 6 numbers at all lanes) to a link.
   void (*add_wrench)(const Task&, std::uint32_t link, const double* wrench){nullptr};
   /// Eliminates and substitutes; writes v'.
   void (*solve)(const Task&){nullptr};
   void (*free_rates)(const FreeTask&){nullptr};
 };
-constexpr std::size_t kLinkMotionNumbers = 18;
 
 /// The kernel for a set that this machine has.
 [[nodiscard]] const Kernel& kernel_for(InstructionSet set);
