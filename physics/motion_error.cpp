@@ -110,9 +110,9 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
       constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_q);
       constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_v);
     }
-    kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), still);
-    base_.resize(layout.links.size());
-    for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
+    base_.assign(layout.links.size(), LinkMotion{});
+    if (tree.follows_driver) kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), still);
+    for (std::uint32_t i = tree.links_begin; tree.follows_driver && i < tree.links_end; ++i) {
       const LinkWork& link = kernel.link(static_cast<std::int32_t>(i));
       base_[i] = {link.v, link.w};
     }
