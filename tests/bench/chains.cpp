@@ -2,7 +2,7 @@
 // first lifted by a right angle, in one plane or bent by 0.3 rad at every second joint, 1 s under gravity.
 // Error: the greatest distance of a centre of gravity from the same chain solved by gauss16 at 1e-14, which
 // dormand-prince at 1e-13 confirms first. Prints a row a solver and tolerance: error, CPU time, least of
-// several runs, and evaluations of the derivative.
+// several runs, and evaluations of the derivative. Then a long run and extremes.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -23,6 +23,9 @@ namespace {
 struct Chain {
   int links{1};
   bool bent{false};
+  double tip_mass{1};  ///< of the last rod [kg]
+  double spin{0};      ///< rate of the last joint at the start [rad/s]
+  double duration{1};  ///< [s]
 };
 
 PhysicsManager build(const Chain& chain) {
@@ -38,13 +41,15 @@ PhysicsManager build(const Chain& chain) {
     const double angle = i == 0 ? std::acos(0.0) : (chain.bent && i % 2 == 1 ? 0.3 : 0);
     X_WJ.q = (X_WJ.q * Quaternion{Eigen::AngleAxisd{angle, axis}}).normalized();
     RigidBodySettings rod{.X_WB = X_WJ};
-    rod.mass = {1, {0, 0, -0.1}, inertia};
+    const double mass = i == chain.links - 1 ? chain.tip_mass : 1;
+    rod.mass = {mass, {0, 0, -0.1}, mass * inertia};
     const BodyId id = physics.add(std::move(rod));
     physics.add(
         test::joint_here<PivotSettings>(physics, up, id, X_WJ * Pose{Vector3::Zero(), test::facing(axis)}));
     up = id;
     X_WJ.p = X_WJ * Vector3{0, 0, -0.2};
   }
+  if (chain.spin != 0) physics.set_joint_rate(physics.joints().back(), chain.spin);
   return physics;
 }
 
@@ -63,7 +68,7 @@ Outcome run(const Chain& chain, const std::string& solver, double tolerance, int
   for (int repeat = 0; repeat < repeats; ++repeat) {
     physics.restore(start);
     const double from = cpu_seconds();
-    const StepReport report = physics.step(1);
+    const StepReport report = physics.step(chain.duration);
     outcome.seconds = std::min(outcome.seconds, cpu_seconds() - from);
     outcome.evaluations = report.evaluations;
     outcome.ok = outcome.ok && report.ok();
@@ -97,6 +102,36 @@ void measure(const Chain& chain) {
   }
 }
 
+/// How far the energy strays over 1000 s, looked at every second.
+void long_run() {
+  PhysicsManager physics = build({5, true});
+  physics.set_integrator(make_gauss({.stages = 8, .tolerance = 1e-12}));
+  const double start = physics.energy().total(), from = cpu_seconds();
+  double strays = 0, gap = 0;
+  for (int second = 0; second < 1000; ++second) {
+    if (!physics.step(1).ok()) std::printf("failed\n");
+    strays = std::max(strays, std::abs(physics.energy().total() - start));
+    gap = std::max(gap, physics.joint_drift().distance);
+  }
+  std::printf("\n1000 s of 5 bent, gauss16 at 1e-12: energy strays %.1e J, joint gap %.1e m, %.2f s CPU\n",
+              strays, gap, cpu_seconds() - from);
+}
+
+/// Heavy and light tips over 0.5 s, and a fast spin: error against the same at 1e-13.
+void extremes() {
+  for (const Chain& chain : {Chain{20, true, 1e4, 0, 0.5}, Chain{20, true, 1e6, 0, 0.5},
+                             Chain{20, true, 1e-6, 0, 0.5}, Chain{5, true, 1, 100}}) {
+    const Outcome tight = run(chain, "gauss16", 1e-13, 1);
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      const Outcome outcome = run(chain, "gauss16", tolerance, 5);
+      std::printf("%d bent, tip %g kg, spin %g rad/s, gauss16 at %.0e: error %.1e m, %.2f ms CPU%s\n",
+                  chain.links, chain.tip_mass, chain.spin, tolerance,
+                  distance(outcome.centres, tight.centres), 1e3 * outcome.seconds,
+                  outcome.ok && tight.ok ? "" : ", failed");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pantin::bench
 
@@ -107,4 +142,6 @@ int main() {
     for (const bool bent : {false, true}) pantin::bench::measure({links, bent});
   }
   pantin::bench::measure({1000, true});
+  pantin::bench::long_run();
+  pantin::bench::extremes();
 }
