@@ -34,6 +34,10 @@ constexpr int kCheapSweeps = 8, kMostSweeps = 16;
 constexpr int kMostSweepsFixed = 60;
 /// The first step, as a part of the time in which slopes change by themselves, for each stage.
 constexpr double kFirstReach = 0.12;
+/// A step that is given is cut into no shorter parts than this many; a call that refuses more steps than this
+/// has met motion that no step resolves.
+constexpr double kMostParts = 1e4;
+constexpr int kMostRefusals = 1000000;
 /// Steps shorter than this (of the time reached and the step asked for) are not tried.
 constexpr double kShortest = 1e-14;
 /// Slopes are not known better than this, relative to themselves.
@@ -58,7 +62,8 @@ class Gauss final : public Integrator {
     control_.shortest = h;
     if (q.empty() && v.empty()) return;
     begin(dynamics, q, v);
-    const double end = t + h, floor = kShortest * (std::abs(t) + h);
+    const double end = t + h, least = std::isfinite(settings_.tolerance) ? 0 : h / kMostParts;
+    const double floor = std::max(kShortest * (std::abs(t) + h), least);
     double next = first_step(t, h, q, v), done = 0;
     while (done < h) {
       const double rest = h - done;
@@ -69,7 +74,7 @@ class Gauss final : public Integrator {
       if (!outcome.accepted) {
         ++control_.refused;
         next = part * outcome.factor;
-        if (next < floor) return give_up(v);
+        if (next < floor || control_.refused > kMostRefusals) return give_up(v);
         continue;
       }
       finish(part, q, v);

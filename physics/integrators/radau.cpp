@@ -31,6 +31,10 @@ constexpr double kSafety = 0.8, kShrinkMost = 0.2, kGrowMost = 3;
 constexpr double kOvershoot = 2, kIterationShare = 0.05;
 constexpr int kMostSweeps = 60, kStepsPerDerivative = 20;
 constexpr double kSlow = 0.6;  ///< contraction from which the derivative is taken anew
+/// A step that is given is cut into no shorter parts than this many; a call that refuses more steps than this
+/// has met motion that no step resolves.
+constexpr double kMostParts = 1e4;
+constexpr int kMostRefusals = 1000000;
 constexpr double kShortest = 1e-14, kRounding = 1e-15;
 constexpr double kDifference = 3e-8, kLeastSize = 1e-3;  ///< of a number [m, rad, ...], for differences
 
@@ -50,7 +54,8 @@ class Radau final : public Integrator {
     control_.shortest = h;
     if (q.empty() && v.empty()) return;
     begin(dynamics, q, v);
-    const double end = t + h, floor = kShortest * (std::abs(t) + h);
+    const double end = t + h, least = std::isfinite(settings_.tolerance) ? 0 : h / kMostParts;
+    const double floor = std::max(kShortest * (std::abs(t) + h), least);
     const bool controlled = std::isfinite(settings_.tolerance);
     double next = controlled && control_.memory.next > 0 ? control_.memory.next : (controlled ? 0.01 * h : h),
            done = 0;
@@ -62,7 +67,7 @@ class Radau final : public Integrator {
       if (!outcome.accepted) {
         ++control_.refused;
         next = part * outcome.factor;
-        if (next < floor) return give_up(v);
+        if (next < floor || control_.refused > kMostRefusals) return give_up(v);
         continue;
       }
       add_compensated(kStages, y_, kept_back_, part, k_, method_.b);
