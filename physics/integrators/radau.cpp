@@ -1,11 +1,10 @@
 // Slopes k_i = f(t + c_i h, y + h sum a_ij k_j) of y = (q, v), by an iteration that gives each stage an
 // implicit part of its own,
 //   (1 - h g_i J) (k_i' - k_i) = f(y + h sum a_ij k_j) - k_i,   J = df/dy at the begin of a step,
-// with g chosen so that it contracts by at least 0.433 a sweep on the whole left half-plane that matters
-// (negative real axis to imaginary axis, checked on rays); P. J. van der Houwen, J. J. B. de Swart, Parallel
-// linear system solvers for Runge-Kutta methods, 1997, for the idea. Nodes and weights: Radau IIA, E. Hairer,
-// G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5. The last node stands at the end of
-// the step.
+// with g chosen so that it contracts on the whole left half-plane, for motion that decays and that
+// oscillates; P. J. van der Houwen, J. J. B. de Swart, Parallel linear system solvers for Runge-Kutta
+// methods, 1997, for the idea. Nodes and weights: Radau IIA, E. Hairer, G. Wanner, Solving Ordinary
+// Differential Equations II, 2nd ed., IV.5. The last node stands at the end of the step.
 #include <pantin/physics/integrators/radau.hpp>
 
 #include <Eigen/LU>

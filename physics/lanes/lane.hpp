@@ -47,7 +47,7 @@ struct SineCosine {
   T sine{}, cosine{};
 };
 
-/// To two units in the last place for |x| < 1e5, one for |x| < 10; greater angles are handed to the standard
+/// To about two units in the last place for |x| < 1e5; greater angles are handed to the standard
 /// library, lane by lane. Reduction by multiples of pi/2 in three parts (W. J. Cody, W. Waite, Software
 /// Manual for the Elementary Functions, 1980, ch. 8); then the minimax polynomials on [-pi/4, pi/4] of
 /// FreeBSD's k_sin.c and k_cos.c.
