@@ -43,6 +43,7 @@ NodeId Scene::create(NodeId parent, std::string_view name, const Affine& M_PN) {
   const NodeId id = impl_->nodes.append(above, local);
   if (impl_->names.size() <= id.index) impl_->names.resize(id.index + std::size_t{1});
   impl_->names[id.index] = name;
+  ++impl_->shape;
   impl_->mark(impl_->nodes.position(id));
   return id;
 }
@@ -59,6 +60,7 @@ void Scene::remove(NodeId id) {
     if (!impl_->links.empty()) impl_->links.erase(index);
     impl_->dirty.clean(at, at + 1);
   }
+  ++impl_->shape;
   impl_->nodes.remove(top, positions);
   ++impl_->pending;
   impl_->compact_if_mostly_holes();
@@ -69,6 +71,7 @@ const std::string& Scene::name(NodeId id) const { return impl_->name(impl_->at(i
 void Scene::rename(NodeId id, std::string_view name) {
   const std::uint32_t at = impl_->at(id);
   PANTIN_EXPECTS(at != 0, "the root has no name; name a child of it");
+  ++impl_->shape;
   impl_->names[id.index] = name;
 }
 

@@ -74,8 +74,8 @@ class Scene {
   /// a name itself ends in such an index, '~2' stands for its '[': a node called "x[1]" is "x~21]", while
   /// "x[1]" is the second "x". Empty for the root.
   [[nodiscard]] std::string path(NodeId id) const;
-  /// The paths of many nodes, in one pass: `path` looks at all siblings of each node on the way up, so paths
-  /// one by one take the square of the nodes where these lie under few parents.
+  /// The paths of many nodes, in one pass. Siblings are counted once for each parent; `path` keeps the counts
+  /// until a node is created, removed, renamed or moved.
   [[nodiscard]] std::vector<std::string> paths(std::span<const NodeId> ids) const;
   /// The node of that path, as `path` gives it ('[0]' may be left out); null if there is none; the root for
   /// "".

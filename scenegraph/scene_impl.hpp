@@ -1,5 +1,6 @@
 #pragma once
 // Private to scenegraph. What a Scene owns.
+#include <mutex>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <pantin/scenegraph/dirty_set.hpp>
 #include <pantin/scenegraph/scene.hpp>
 #include <pantin/scenegraph/scene_storage.hpp>
+#include <pantin/scenegraph/sibling_numbers.hpp>
 #include <pantin/scenegraph/sweep.hpp>
 
 namespace pantin {
@@ -25,6 +27,11 @@ struct Scene::Impl {
       false};  ///< positions or worlds were touched between updates: the next one reports everything
   std::size_t climbed{0};  ///< steps that edits climbed through dirty ancestors since the last sweep
   std::vector<std::uint32_t> scratch{};  ///< positions, reused by members that write
+
+  std::uint64_t shape{0};          ///< counts changes of names, and of who hangs where and lies where
+  mutable std::mutex numbering{};  ///< const reads may come from several threads, and these write
+  mutable SiblingNumbers numbers{};
+  mutable std::uint64_t numbered_shape{0};
 
   /// Position of a node; that it is alive is a contract.
   [[nodiscard]] std::uint32_t at(NodeId id) const {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <unordered_set>
 
 #include <pantin/scenegraph/scene_impl.hpp>
 
@@ -67,8 +66,8 @@ std::optional<Segment> parse(std::string_view text) {
   return segment;
 }
 
-/// Writes paths of one scene. Siblings are counted once for each parent, and what the last path has in common
-/// with the next is kept, so that a subtree in its order is written in one pass.
+/// Writes paths of one scene. What the last path has in common with the next is kept, so that a subtree in
+/// its order is written in one pass.
 class PathWriter {
  public:
   PathWriter(const SceneStorage& nodes, const std::vector<std::string>& names)
@@ -83,11 +82,7 @@ class PathWriter {
     while (!rest_.empty()) {
       const std::uint32_t node = rest_.back();
       rest_.pop_back();
-      const std::uint32_t parent = nodes_.parent(node);
-      if (counted_.insert(parent).second) number_children(parent);
-      const auto number = numbers_.find(node);
-      append_segment(path_, name(node),
-                     number == numbers_.end() ? std::nullopt : std::optional{number->second});
+      append_segment(path_, name(node), numbers_.of(node, nodes_, names_));
       above_.push_back({node, path_.size()});
     }
     return path_;
@@ -98,31 +93,15 @@ class PathWriter {
     std::uint32_t at{0};
     std::size_t length{0};  ///< of the path up to here
   };
-  struct Name {
-    std::uint32_t first{0};
-    std::size_t count{0};
-  };
 
   [[nodiscard]] const std::string& name(std::uint32_t at) const { return names_[nodes_.order()[at].index]; }
-
-  void number_children(std::uint32_t parent) {
-    std::unordered_map<std::string_view, Name> names;
-    nodes_.for_each_child(parent, [&](std::uint32_t child) {
-      const auto [entry, is_new] = names.try_emplace(name(child), Name{child, 0});
-      const std::size_t number = entry->second.count++;
-      if (number == 1) numbers_.try_emplace(entry->second.first, 0);
-      if (number > 0 || entry->first.empty()) numbers_.try_emplace(child, number);
-      return true;
-    });
-  }
 
   const SceneStorage& nodes_;
   const std::vector<std::string>& names_;
   std::string path_{};
   std::vector<Written> above_{};  ///< the nodes of path_, from the child of the root down
   std::vector<std::uint32_t> rest_{};
-  std::unordered_set<std::uint32_t> counted_{};               ///< parents whose children are numbered
-  std::unordered_map<std::uint32_t, std::size_t> numbers_{};  ///< of the nodes whose segment has one
+  SiblingNumbers numbers_{};
 };
 
 }  // namespace
@@ -130,18 +109,12 @@ class PathWriter {
 std::string Scene::Impl::path(std::uint32_t at) const {
   std::vector<std::uint32_t> chain;
   for (; at != 0; at = nodes.parent(at)) chain.push_back(at);
+  const std::lock_guard lock{numbering};
+  if (numbered_shape != shape) numbers.clear();
+  numbered_shape = shape;
   std::string out;
-  for (auto node = chain.rbegin(); node != chain.rend(); ++node) {
-    const std::string& own = name(*node);
-    std::size_t same = 0;
-    std::size_t number = 0;
-    nodes.for_each_child(nodes.parent(*node), [&](std::uint32_t sibling) {
-      if (sibling == *node) number = same;
-      if (name(sibling) == own) ++same;
-      return true;
-    });
-    append_segment(out, own, own.empty() || same > 1 ? std::optional{number} : std::nullopt);
-  }
+  for (auto node = chain.rbegin(); node != chain.rend(); ++node)
+    append_segment(out, name(*node), numbers.of(*node, nodes, names));
   return out;
 }
 

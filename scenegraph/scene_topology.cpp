@@ -48,6 +48,7 @@ void Scene::set_parent(NodeId child, NodeId parent, Keep keep) {
   }
   std::vector<std::uint32_t>& positions = scene.scratch;
   positions.clear();
+  ++scene.shape;
   scene.nodes.collect(top, positions);
   for (const std::uint32_t at : positions) scene.dirty.clean(at, at + 1);
   // All of the subtree is in one run now, so marking its top covers the marks that were cleaned.

@@ -22,6 +22,7 @@ constexpr std::size_t kSlackWhileEdited =
 }  // namespace
 
 void Scene::Impl::compact() {
+  ++shape;
   const std::vector<std::uint32_t> from = nodes.compact();
   DirtySet moved;
   moved.grow(from.size());

@@ -92,6 +92,35 @@ TEST(Paths, AreThoseOfTheNodesInTheirOrder) {
   EXPECT_TRUE(scene.paths({}).empty());
 }
 
+TEST(Path, CountsSiblingsAnewWhereNamesOrPlacesChange) {
+  // What is kept from one call to the next must not outlive a change: each kind of change is followed by a
+  // path that would be another with the old counts.
+  Scene scene;
+  const NodeId a = scene.create(scene.root(), "x");
+  EXPECT_EQ(scene.path(a), "x");
+  const NodeId b = scene.create(scene.root(), "x");
+  EXPECT_EQ(scene.path(b), "x[1]");
+  scene.rename(a, "y");
+  EXPECT_EQ(scene.path(b), "x");
+  const NodeId c = scene.create(a, "x");
+  scene.set_parent(c, scene.root(), Keep::Local);
+  EXPECT_EQ(scene.path(c), "x[1]");
+  scene.compact();
+  EXPECT_EQ(scene.path(c), "x[1]");
+  scene.remove(b);
+  EXPECT_EQ(scene.path(c), "x");
+}
+
+TEST(Path, OfEveryNodeOfAWideFanTakesNoLongerThanItsLength) {
+  // 100,000 siblings of two names in pairs. One look at all siblings for each path would be 10^10
+  // comparisons, minutes; the numbers are what the order of creation says.
+  Scene scene;
+  std::vector<NodeId> ids;
+  for (int i = 0; i < 100'000; ++i) ids.push_back(scene.create(scene.root(), "n" + std::to_string(i / 2)));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    ASSERT_EQ(scene.path(ids[i]), "n" + std::to_string(i / 2) + '[' + std::to_string(i % 2) + ']');
+}
+
 TEST(Find, IsNullForWhatIsNotThere) {
   // Unknown names, numbers past the last, bad escapes, numbers too long for any count, slashes too many.
   Scene scene;
