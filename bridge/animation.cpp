@@ -175,7 +175,7 @@ void Bridge::set_local(NodeId id, const Affine& M_PN) {
   bridge.let_player_in({&id, 1});
 }
 
-void Bridge::set_link_value(NodeId id, const LinkValue& value) {
+std::vector<Diagnostic> Bridge::set_link_value(NodeId id, const LinkValue& value) {
   Impl& bridge = *impl_;
   bridge.expect_alive(id, "set_link_value");
   const Link* link = bridge.scene.link(id);
@@ -185,30 +185,47 @@ void Bridge::set_link_value(NodeId id, const LinkValue& value) {
                  "set_link_value: a " + std::string{to_string(link->kind)} + " link has " +
                      std::to_string(value_size(link->kind)) + " number(s), not " +
                      std::to_string(value.size()));
-  bridge.set_link_value(id, value);
-  if (value.size() != 1) return;
-  for (const Follower& follower : all_followers(bridge.followers, id)) {
-    const Link* following = bridge.scene.contains(follower.node) ? bridge.scene.link(follower.node) : nullptr;
-    if (following != nullptr && following->mimic)
-      bridge.set_link_value(follower.node, follower.multiplier * value[0] + follower.offset);
+  std::vector<Diagnostic> notes = bridge.set_link_value(id, value);
+  if (value.size() == 1 && !has_error(notes)) bridge.set_followers(id, value[0], {}, notes);
+  return notes;
+}
+
+void Bridge::Impl::set_followers(NodeId leader, double value, const std::unordered_set<NodeId>& except,
+                                 std::vector<Diagnostic>& notes) {
+  for (const Follower& follower : all_followers(followers, leader, except)) {
+    const Link* following = scene.contains(follower.node) ? scene.link(follower.node) : nullptr;
+    if (following == nullptr || !following->mimic) continue;
+    for (Diagnostic& said : set_link_value(follower.node, follower.multiplier * value + follower.offset))
+      notes.push_back(std::move(said));
   }
 }
 
-void Bridge::Impl::set_link_value(NodeId id, const LinkValue& value) {
+Diagnostic Bridge::Impl::not_allowed(const Binding& binding) const {
+  Diagnostic said =
+      note(Severity::Error, binding.node, "its loop cannot be closed with this value; nothing is changed",
+           "choose a value within its reach, or leave it to the others of its loop");
+  said.subject = "joint '" + physics.joint(binding.joint).name + "'";
+  return said;
+}
+
+std::vector<Diagnostic> Bridge::Impl::set_link_value(NodeId id, const LinkValue& value) {
   const Link* link = scene.link(id);
   const Binding* binding = find(id);
   if (binding == nullptr || binding->drive == Drive::Scene) {
     self->set_local(id, local_matrix(*link, value));
     scene.note_link_value(id, value);
-  } else if (binding->drive == Drive::Physics && binding->tie.kind == JointTie::Kind::Link && value.size() > 0) {
-    physics.set_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value));
+  } else if (binding->drive == Drive::Physics && binding->tie.kind == JointTie::Kind::Link &&
+             value.size() > 0) {
+    if (!physics.try_joint_value(binding->joint, joint_numbers(value, binding->metres_per_value)))
+      return {not_allowed(*binding)};
     sync_out(nullptr);
   } else if (value.size() > 0) {
     const Affine M_WN = scene.world(scene.parent(id)) * local_matrix(*link, value);
-    const std::vector<Diagnostic> notes = self->teleport(id, M_WN, TeleportVelocity::Keep);
-    PANTIN_EXPECTS(!has_error(notes), "set_link_value: " + to_string(notes.back()));
-    scene.note_link_value(id, value);
+    std::vector<Diagnostic> notes = self->teleport(id, M_WN, TeleportVelocity::Keep);
+    if (!has_error(notes)) scene.note_link_value(id, value);
+    return notes;
   }
+  return {};
 }
 
 }  // namespace pantin

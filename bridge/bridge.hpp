@@ -132,7 +132,8 @@ class Bridge {
   /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link
   /// is joined to the nearest bound node above; if there is none, to the world, or to its parent if that is
   /// played. Subtree takes the node and all below it that declare mass or have a link that moves; what
-  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet.
+  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet;
+  /// animated links that mimic a simulated one follow it, their bodies one advance later.
   std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
                                     const HandOverSettings& settings = {});
   /// Simulated nodes are animated again. One that a clip moves, or moves with, is led back to it from where
@@ -164,8 +165,8 @@ class Bridge {
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
   /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
-  /// set.
-  void set_link_value(NodeId id, const LinkValue& value);
+  /// set. A value that the joint's loop cannot take is an error that names the joint and changes nothing.
+  std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
 
   // Look-up
   [[nodiscard]] std::optional<Drive> drive_of(NodeId id) const;  ///< nothing for a node without a body

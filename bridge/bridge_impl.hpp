@@ -96,7 +96,9 @@ struct Bridge::Impl {
   void change_kind(Binding& binding);
   [[nodiscard]] Pose trajectory_pose(const Binding& binding) const;
   void jump_to_trajectory(Binding& binding);
-  void tell_turns(std::span<Binding* const> affected);
+  void tell_turns(std::span<Binding* const> affected, std::vector<Diagnostic>& notes);
+  /// An error about a value of its joint that its loop cannot take.
+  [[nodiscard]] Diagnostic not_allowed(const Binding& binding) const;
   void remember_written(Binding& binding) const;
   void hold_player(const Binding& binding);
 
@@ -147,10 +149,14 @@ struct Bridge::Impl {
   [[nodiscard]] static bool is_below_written(const Binding& binding);
   void sync_out(std::vector<Diagnostic>* notes);
   void write_scene(std::vector<Diagnostic>* notes);
+  void lead_followers();
   void play_on();
 
+  /// Sets what follows a link of this value, but for those that move by themselves and what follows them.
+  void set_followers(NodeId leader, double value, const std::unordered_set<NodeId>& except,
+                     std::vector<Diagnostic>& notes);
   /// Of one link, whatever follows it.
-  void set_link_value(NodeId id, const LinkValue& value);
+  std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
 
   // Time (advance.cpp)
   void meet_physics_time();

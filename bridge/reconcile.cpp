@@ -54,7 +54,8 @@ std::vector<Diagnostic> Bridge::Impl::settle(std::span<const NodeId> tops) {
     if (!binding->joint) tie(*binding, notes);
   }
   if (has_error(notes)) return notes;
-  tell_turns(affected);
+  tell_turns(affected, notes);
+  if (has_error(notes)) return notes;
   for (Binding* binding : affected) {
     if (binding->drive == Drive::Scene && !binding->moved_from) jump_to_trajectory(*binding);
     hold_player(*binding);
@@ -117,11 +118,11 @@ void Bridge::Impl::jump_to_trajectory(Binding& binding) {
 }
 
 // Physics measures angles from poses; whole turns have to be told.
-void Bridge::Impl::tell_turns(std::span<Binding* const> affected) {
+void Bridge::Impl::tell_turns(std::span<Binding* const> affected, std::vector<Diagnostic>& notes) {
   for (Binding* binding : affected) {
     if (!binding->pending_turns) continue;
-    physics.set_joint_value(binding->joint,
-                            joint_numbers(*binding->pending_turns, binding->metres_per_value));
+    const JointNumbers value = joint_numbers(*binding->pending_turns, binding->metres_per_value);
+    if (!physics.try_joint_value(binding->joint, value)) notes.push_back(not_allowed(*binding));
     binding->pending_turns.reset();
   }
 }

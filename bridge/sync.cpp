@@ -2,6 +2,7 @@
 // have just been written; and players before it, at physics time.
 #include <pantin/bridge/bits.hpp>
 #include <pantin/bridge/bridge_impl.hpp>
+#include <pantin/bridge/links_to_joints.hpp>
 
 namespace pantin {
 namespace {
@@ -76,10 +77,36 @@ void Bridge::Impl::play_on() {
   passed.insert(passed.end(), player.events().begin(), player.events().end());
 }
 
+// Animated links that mimic a simulated one. Where it stands is known from physics before the scene is
+// written, and what the user set stays until it moves.
+void Bridge::Impl::lead_followers() {
+  if (followers.empty()) return;
+  std::unordered_set<NodeId> others;  // move by themselves
+  for (const auto& [leader, direct] : followers) {
+    for (const Follower& follower : direct) {
+      const Binding* binding = find(follower.node);
+      const bool is_animated = binding == nullptr || binding->drive == Drive::Scene;
+      if (!is_animated || is_played(follower.node)) others.insert(follower.node);
+    }
+  }
+  for (const auto& [leader, direct] : followers) {
+    const Binding* binding = find(leader);
+    const Link* link = scene.contains(leader) ? scene.link(leader) : nullptr;
+    if (binding == nullptr || link == nullptr || link->value.size() != 1) continue;
+    if (binding->drive != Drive::Physics || binding->tie.kind != JointTie::Kind::Link) continue;
+    if (!physics.contains(binding->joint)) continue;
+    const LinkValue value =
+        link_value(physics.joint_value(binding->joint), binding->metres_per_value, link->value);
+    std::vector<Diagnostic> none;  // nothing can be wrong with animated links
+    if (value != link->value) set_followers(leader, value[0], others, none);
+  }
+}
+
 void Bridge::Impl::write_scene(std::vector<Diagnostic>* notes) {
   finish_blends();
   play_on();
   player.apply(scene);
+  lead_followers();
   rebake_residuals();
   sync_out(notes);
 }

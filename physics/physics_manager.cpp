@@ -220,7 +220,13 @@ JointNumbers PhysicsManager::joint_rate(JointId id) const {
 }
 
 void PhysicsManager::set_joint_value(JointId id, const JointNumbers& value) {
-  impl_->constraints.set_value(impl_->bodies, impl_->constraints.at(id), value);
+  PANTIN_EXPECTS(try_joint_value(id, value),
+                 "joint '" + joint(id).name +
+                     "' cannot take this value with its loop closed; choose one within its reach");
+}
+
+bool PhysicsManager::try_joint_value(JointId id, const JointNumbers& value) {
+  return impl_->constraints.set_value(impl_->bodies, impl_->constraints.at(id), value);
 }
 
 void PhysicsManager::set_joint_rate(JointId id, const JointNumbers& rate) {

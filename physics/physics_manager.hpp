@@ -97,6 +97,8 @@ class PhysicsManager {
   /// Moves B and all it carries; in a loop the rest follows, by the shortest way that its inertia knows. A
   /// value or rate that the loop does not allow breaks the contract.
   void set_joint_value(JointId id, const JointNumbers& value);
+  /// The same for values that come from outside: where the loop does not allow it, nothing changes.
+  [[nodiscard]] bool try_joint_value(JointId id, const JointNumbers& value);
   void set_joint_rate(JointId id, const JointNumbers& rate);
   /// Wrench that A exerts on B through the joint, at J, in W, at the present state: evaluated on demand.
   /// Where loops are redundant, the least that does it.

@@ -60,7 +60,8 @@ class ConstraintManager {
   // Numbers of a joint, seen as B relative to A.
   [[nodiscard]] JointNumbers value(const BodyStore& bodies, std::size_t j) const;
   [[nodiscard]] JointNumbers rate(const BodyStore& bodies, std::size_t j) const;
-  void set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value);
+  /// False, and nothing has changed, where the joint's loop does not allow the value.
+  [[nodiscard]] bool set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value);
   void set_rate(BodyStore& bodies, std::size_t j, const JointNumbers& rate);
   [[nodiscard]] JointDrift drift(const BodyStore& bodies) const;
   /// Moves a body of a tree with all that hangs on it; its own joint is kept, and loops are closed again.
@@ -88,7 +89,7 @@ class ConstraintManager {
   // Trees with loops (held_joint.cpp).
   [[nodiscard]] std::int32_t tree_of_joint(std::size_t j) const;
   [[nodiscard]] bool is_in_loop(std::size_t j) const;
-  void set_value_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& to);
+  [[nodiscard]] bool set_value_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& to);
   void set_rate_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& rate);
   [[nodiscard]] Pose relative_pose(const BodyStore& bodies, const JointDefinition& joint) const;
 

@@ -87,7 +87,7 @@ bool ConstraintManager::is_in_loop(std::size_t j) const {
   return tree >= 0 && layout_.trees[static_cast<std::size_t>(tree)].has_closures();
 }
 
-void ConstraintManager::set_value_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& to) {
+bool ConstraintManager::set_value_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& to) {
   const JointDefinition& joint = *joints_[j];
   const auto t = static_cast<std::size_t>(tree_of_joint(j));
   const Tree& tree = layout_.trees[t];
@@ -122,12 +122,12 @@ void ConstraintManager::set_value_in_loop(BodyStore& bodies, std::size_t j, cons
   }
   if (!closed) {
     bodies.state = before;
-    PANTIN_EXPECTS(false, "joint '" + joint.name +
-                              "' cannot take this value with its loop closed; choose one within its reach");
+    return false;
   }
   open_[t] = {};
   bodies.state.edited[t] = 1;
   prepare(bodies);
+  return true;
 }
 
 void ConstraintManager::set_rate_in_loop(BodyStore& bodies, std::size_t j, const JointNumbers& rate) {

@@ -149,7 +149,7 @@ void ConstraintManager::put_numbers(BodyStore& bodies, std::size_t j, const Numb
   commit(bodies, layout_.trees[layout_.tree_of(index)], grounds_, now);
 }
 
-void ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value) {
+bool ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointNumbers& value) {
   prepare(bodies);
   Numbers n = numbers(bodies, j);
   with_model(*joints_[j], [&](auto model) {
@@ -161,6 +161,7 @@ void ConstraintManager::set_value(BodyStore& bodies, std::size_t j, const JointN
   if (is_in_loop(j)) return set_value_in_loop(bodies, j, value);
   std::copy(value.numbers().begin(), value.numbers().end(), n.q);
   put_numbers(bodies, j, n);
+  return true;
 }
 
 void ConstraintManager::set_rate(BodyStore& bodies, std::size_t j, const JointNumbers& rate) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <pantin/physics/constraints/ball.hpp>
+#include <pantin/physics/constraints/pivot.hpp>
 
 #include "support/stage.hpp"
 
@@ -154,6 +155,30 @@ TEST(Reparent, TakesALoopThatAnotherJointCloses) {
   EXPECT_FALSE(has_error(s.bridge.reparent(b, c)));
   EXPECT_EQ(s.scene.parent(b), c);
   EXPECT_EQ(s.physics.joint(s.bridge.joint_of(b)).a, s.bridge.body_of(c));
+}
+
+TEST(SetLinkValue, IsRefusedWhereALoopDoesNotAllowIt) {
+  // A rod from the origin to (1, 0), its end tied by a bar of 2 m to the point (1, 2): a triangle, which has
+  // no other shape. Turned by 0.5 rad the rod's end would be 1.53 m from that point.
+  Stage s;
+  const NodeId rod = box(s, s.scene.root(), "rod", Affine::Identity(), 1, {0.5, 0, 0});
+  s.scene.set_link(rod, test::pivot_link("post", Affine::Identity(), {0, 0, 1}));
+  ASSERT_FALSE(has_error(s.bridge.hand_over(rod)));
+  const NodeId bar = box(s, s.scene.root(), "bar", moved({1, 0, 0}), 1, {1, 0, 0});
+  ASSERT_FALSE(has_error(s.bridge.hand_over(bar)));
+  s.physics.add(PivotSettings{
+      .name = "end", .a = s.bridge.body_of(rod), .b = s.bridge.body_of(bar), .X_AJ = {{1, 0, 0}}});
+  s.physics.add(
+      PivotSettings{.name = "wall", .b = s.bridge.body_of(bar), .X_AJ = {{1, 2, 0}}, .X_BJ = {{0, 2, 0}}});
+  const std::vector<Affine> before = test::locals(s.scene);
+  const std::vector<Diagnostic> notes = s.bridge.set_link_value(rod, 0.5);
+  ASSERT_TRUE(has_error(notes));
+  EXPECT_EQ(
+      to_string(notes.front()),
+      "rod: error: joint 'post': its loop cannot be closed with this value; nothing is changed; choose a "
+      "value within its reach, or leave it to the others of its loop");
+  EXPECT_EQ(s.scene.link(rod)->value[0], 0);
+  EXPECT_TRUE(test::same_bits(before, test::locals(s.scene)));
 }
 
 TEST(HandOver, RefusesAStaticNodeBelow) {

@@ -104,5 +104,96 @@ TEST(Mimic, EndsWhereLinksFollowEachOther) {
   EXPECT_DOUBLE_EQ(value(s, m.nodes[3]), 2.1);
 }
 
+/// A pendulum "one" of 1 kg that swings; "two" = 0.5 one + 0.1 slides, "three" = -2 two + 1 turns, and "four"
+/// = one slides by itself.
+struct Led {
+  Led() {
+    gravity = s.physics.forces().add(Gravity{});
+    Model model{.name = "m"};
+    const auto follower = [&](Link link, LinkMimic rule) {
+      link.mimic = std::move(rule);
+      model.nodes.push_back({.name = link.name, .parent = 0, .link = link});
+    };
+    model.nodes.push_back({.name = "base"});
+    model.nodes.push_back({.name = "one",
+                           .parent = 0,
+                           .link = test::pivot_link("one", Affine::Identity(), Vector3::UnitY(), 0.3),
+                           .mass = test::box_mass(1, {0.1, 0.1, 0.4}, {0, 0, -0.5})});
+    follower(test::slider_link("two", Affine::Identity(), Vector3::UnitX()), {"one", 0.5, 0.1});
+    follower(test::pivot_link("three", Affine::Identity(), Vector3::UnitZ()), {"two", -2, 1});
+    follower(test::slider_link("four", Affine::Identity(), Vector3::UnitZ()), {"one", 1, 0});
+    nodes = s.bridge.instantiate(model, s.scene.root()).nodes;
+  }
+  [[nodiscard]] double joint() const { return s.physics.joint_value(s.bridge.joint_of(nodes[1]))[0]; }
+
+  Stage s{1.0 / 240};
+  ForceId gravity{};
+  std::vector<NodeId> nodes;
+};
+
+TEST(Mimic, FollowsASimulatedLeader) {
+  // The rule holds between the joint of physics and the animated links, directly and over a link between,
+  // value and matrix; before the leader has moved nothing is touched.
+  Led led;
+  Stage& s = led.s;
+  s.bridge.set_link_value(led.nodes[2], 7);
+  ASSERT_FALSE(has_error(s.bridge.hand_over(led.nodes[1])));
+  s.bridge.sync_out();
+  EXPECT_EQ(value(s, led.nodes[2]), 7);
+  for (int frame = 0; frame < 30; ++frame) {
+    ASSERT_TRUE(s.bridge.advance(1.0 / 60).last.ok());
+    const double angle = led.joint();
+    ASSERT_NE(angle, 0.3);
+    EXPECT_DOUBLE_EQ(value(s, led.nodes[2]), 0.5 * angle + 0.1);
+    EXPECT_NEAR(s.scene.world(led.nodes[2]).translation().x(), 0.5 * angle + 0.1, 1e-15);
+    EXPECT_NEAR(value(s, led.nodes[3]), -2 * (0.5 * angle + 0.1) + 1, 1e-15);
+    EXPECT_DOUBLE_EQ(value(s, led.nodes[4]), angle);
+  }
+}
+
+TEST(Mimic, LeavesWhatMovesByItselfToItself) {
+  // "two" is played and "four" simulated: neither is written; "three" follows the clip of "two".
+  Led led;
+  Stage& s = led.s;
+  ASSERT_FALSE(has_error(s.bridge.play(test::link_clip(1, 1, 2), {led.nodes[2]})));
+  s.bridge.set_node_body(led.nodes[4], {.mass = test::box_mass(1, {0.1, 0.1, 0.1})});
+  for (const std::size_t k : {1U, 4U}) ASSERT_FALSE(has_error(s.bridge.hand_over(led.nodes[k])));
+  ASSERT_TRUE(s.bridge.advance(0.25).last.ok());
+  EXPECT_DOUBLE_EQ(value(s, led.nodes[2]), 1);
+  EXPECT_DOUBLE_EQ(value(s, led.nodes[3]), -1);
+  EXPECT_NEAR(value(s, led.nodes[4]), -0.5 * 9.81 * 0.25 * 0.25, 1e-9);  // falls freely along its axis
+}
+
+TEST(Mimic, CarriesABodyAlong) {
+  // A follower with a body: its node is there at once, its body by the end of the next advance, and moves
+  // meanwhile with the difference over the time of that advance.
+  Led led;
+  Stage& s = led.s;
+  s.bridge.set_node_body(led.nodes[2], {.mass = test::box_mass(1, {0.1, 0.1, 0.1})});
+  ASSERT_FALSE(has_error(s.bridge.hand_over(led.nodes[1])));
+  ASSERT_FALSE(has_error(s.bridge.follow(led.nodes[2])));
+  ASSERT_TRUE(s.bridge.advance(0.1).last.ok());
+  const double first = value(s, led.nodes[2]);
+  ASSERT_TRUE(s.bridge.advance(0.1).last.ok());
+  const double second = value(s, led.nodes[2]);
+  ASSERT_TRUE(s.bridge.advance(0.1).last.ok());
+  const RigidBody body = s.physics.body(s.bridge.body_of(led.nodes[2]));
+  EXPECT_NEAR(body.X_WB().p.x(), second, 1e-12);
+  EXPECT_NEAR(body.v_WBcm().x(), (second - first) / 0.1, 1e-9);
+  EXPECT_NE(value(s, led.nodes[2]), second);
+}
+
+TEST(Mimic, StaysWhereItsLeaderRests) {
+  // Without gravity and rate the leader does not move: no bit of the scene changes.
+  Led led;
+  Stage& s = led.s;
+  s.physics.forces().remove(led.gravity);
+  s.bridge.set_link_value(led.nodes[1], 0.3);
+  ASSERT_FALSE(has_error(s.bridge.hand_over(led.nodes[1])));
+  const std::vector<Affine> before = test::locals(s.scene);
+  for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(s.bridge.advance(0.1).last.ok());
+  EXPECT_TRUE(test::same_bits(before, test::locals(s.scene)));
+}
+
 }  // namespace
 }  // namespace pantin
