@@ -10,6 +10,7 @@
 
 #include <pantin/bridge/cli/command.hpp>
 #include <pantin/bridge/diagnostic.hpp>
+#include <pantin/bridge/writers/output_file.hpp>
 #include <pantin/scenegraph/expects.hpp>
 
 namespace pantin::cli {
@@ -58,9 +59,19 @@ void throw_on_violation(const ContractViolation& violation) {
   throw std::logic_error{violation.what + " [" + violation.expression + "]"};
 }
 
+/// Files appear whole or not at all, also where the user breaks off; then the signal does what it always
+/// does.
+void end_without_traces(int signal) {
+  remove_unfinished_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 ExitCode run(int argc, char** argv) {
   contract_handler() = &throw_on_violation;
-  std::signal(SIGPIPE, SIG_IGN);  // writing to a closed pipe fails like any other write
+  std::signal(SIGPIPE, SIG_IGN);                      // writing to a closed pipe fails like any other write
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})  // not where the caller has them ignored, as nohup does
+    if (std::signal(signal, &end_without_traces) == SIG_IGN) std::signal(signal, SIG_IGN);
   std::ios::sync_with_stdio(false);
   CLI::App program;
   Command chosen;

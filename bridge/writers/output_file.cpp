@@ -3,23 +3,55 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 
 namespace pantin {
 namespace fs = std::filesystem;
+namespace {
+
+// The temporary files that are open now, for the handler of a signal, which gets no argument and may not
+// wait for a lock: hence the one list for the process, and of limited length. Beyond it a file is written all
+// the same, and left behind where the process is killed.
+std::array<std::atomic<const char*>, 64> unfinished{};
+
+std::atomic<const char*>* enlist(const char* file) noexcept {
+  for (std::atomic<const char*>& place : unfinished) {
+    const char* none = nullptr;
+    if (place.compare_exchange_strong(none, file)) return &place;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void remove_unfinished_files() noexcept {
+  for (const std::atomic<const char*>& place : unfinished) {
+    if (const char* file = place.load()) ::unlink(file);
+  }
+}
 
 struct OutputFile::Impl {
   fs::path named{};      ///< as the user said it
   fs::path target{};     ///< what the name stands for
   fs::path temporary{};  ///< empty once committed
   std::ofstream stream{};
+  std::atomic<const char*>* enlisted{nullptr};  ///< holds the characters of `temporary`
 
   ~Impl() {
     if (temporary.empty()) return;
     stream.close();
     std::error_code ignored;
     fs::remove(temporary, ignored);
+    forget();
+  }
+  /// The temporary file is gone.
+  void forget() {
+    if (enlisted != nullptr) enlisted->store(nullptr);
+    enlisted = nullptr;
+    temporary.clear();
   }
 };
 
@@ -67,8 +99,9 @@ Loaded<OutputFile> OutputFile::open(const fs::path& file) {
   fs::path temporary;
   if (const int code = create_beside(impl->target, temporary); code != 0)
     return {{}, {cannot_write(file, std::string{"cannot be created: "} + std::strerror(code))}};
-  impl->temporary = temporary;
-  impl->stream.open(temporary, std::ios::binary | std::ios::trunc);
+  impl->temporary = std::move(temporary);
+  impl->enlisted = enlist(impl->temporary.c_str());
+  impl->stream.open(impl->temporary, std::ios::binary | std::ios::trunc);
   if (!impl->stream) return {{}, {cannot_write(file, "cannot be opened for writing")}};
   return {OutputFile{std::move(impl)}, {}};
 }
@@ -82,7 +115,7 @@ std::optional<Diagnostic> OutputFile::commit() {
   std::error_code error;
   fs::rename(impl_->temporary, impl_->target, error);
   if (error) return cannot_write(impl_->named, "could not be put in place: " + error.message());
-  impl_->temporary.clear();
+  impl_->forget();
   return std::nullopt;
 }
 

@@ -11,6 +11,10 @@
 
 namespace pantin {
 
+/// Removes the temporary files of all that is open: for handlers of signals that end the process.
+/// Async-signal-safe.
+void remove_unfinished_files() noexcept;
+
 class OutputFile {
  public:
   /// Opens a temporary file beside `file`, following a symbolic link. No value and an error where that cannot

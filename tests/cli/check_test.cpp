@@ -10,7 +10,7 @@ namespace {
 TEST(Check, GivesOneEntryAFile) {
   // One file is good, one is broken, one is not there: the bad ones do not keep the good one from being
   // checked.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string good = folder.write("good.urdf", kPendulumUrdf);
   const std::string broken = folder.write("broken.urdf", kBrokenUrdf);
   const std::string missing = folder.path("missing.urdf");
@@ -33,7 +33,7 @@ TEST(Check, GivesOneEntryAFile) {
 
 TEST(Check, PutsErrorsOnStandardError) {
   // Whoever reads standard output gets results only.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"check", folder.write("broken.urdf", kBrokenUrdf)});
   EXPECT_EQ(ran.code, 1);
   EXPECT_TRUE(ran.says("broken.urdf:3: error: ")) << ran.err;
@@ -43,7 +43,7 @@ TEST(Check, PutsErrorsOnStandardError) {
 
 TEST(Check, IsFineWithGoodFiles) {
   // A file without any finding is one line.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
   const Ran ran = pantin({"check", file});
   EXPECT_EQ(ran.code, 0);
@@ -53,7 +53,7 @@ TEST(Check, IsFineWithGoodFiles) {
 
 TEST(Check, TreatsWarningsAsErrorsWhenStrict) {
   // A mass of zero is doubtful, not wrong: fine without --strict, refused with it.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("light.urdf", kMasslessUrdf);
   const Ran lenient = pantin({"check", "--json", file});
   EXPECT_EQ(lenient.code, 0);
@@ -69,7 +69,7 @@ TEST(Check, TreatsWarningsAsErrorsWhenStrict) {
 
 TEST(Check, OutlivesAParserThatCrashes) {
   // A count of -1 in this COLLADA file crashes assimp 5.2; the next file is checked all the same.
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ifstream crane{PANTIN_SOURCE_DIR "/assets/meshes/crane.dae"};
   std::string text{std::istreambuf_iterator<char>{crane}, {}};
   const std::string count = "<float_array id=\"wedge-p-array\" count=\"";
@@ -149,7 +149,7 @@ TEST(Usage, RefusesWhatMakesNoSense) {
 
 TEST(Output, ThatCannotBeWrittenIsAnError) {
   // /dev/full takes nothing: the result is lost, and that must show.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"info", "--json", folder.write("pendulum.urdf", kPendulumUrdf)}, "/dev/full");
   EXPECT_EQ(ran.code, 1);
   EXPECT_TRUE(ran.says("standard output could not be written completely")) << ran.err;
@@ -157,7 +157,7 @@ TEST(Output, ThatCannotBeWrittenIsAnError) {
 
 TEST(Output, OfWhichNobodyReadsIsNoError) {
   // `pantin ... | head` closes the pipe early; the file of --out is written all the same, and nothing dies.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
   const std::string command = std::string{PANTIN_BINARY_DIR "/bin/pantin run --json --simulate all "} + file +
                               " --out " + folder.path("t.json") + " 2>" + folder.path("err") + "; echo $? >" +
@@ -165,15 +165,15 @@ TEST(Output, OfWhichNobodyReadsIsNoError) {
   FILE* pipe = popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
   pclose(pipe);
-  EXPECT_EQ(text_of(folder.path("code")), "0\n");
-  EXPECT_EQ(text_of(folder.path("err")), "");
-  EXPECT_FALSE(Json::parse(text_of(folder.path("t.json")), nullptr, false).is_discarded());
+  EXPECT_EQ(content_of(folder.path("code")), "0\n");
+  EXPECT_EQ(content_of(folder.path("err")), "");
+  EXPECT_FALSE(Json::parse(content_of(folder.path("t.json")), nullptr, false).is_discarded());
 }
 
 TEST(Output, DoesNotDependOnTheLocale) {
   // A locale with a decimal comma must not reach files or arguments; where it is not installed nothing is
   // shown.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("pendulum.urdf", kPendulumUrdf);
   const std::string plain = pantin({"info", "--json", file, "--joint", "hinge=0.5"}).out;
   setenv("LC_ALL", "de_DE.UTF-8", 1);

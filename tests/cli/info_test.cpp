@@ -29,7 +29,7 @@ void expect_position(const Json& matrix, double x, double y, double z) {
 
 TEST(Info, HasTheDocumentedShape) {
   // The keys are promised in README; programs lean on all of them and on nothing else.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json info = pantin({"info", "--json", folder.write("linked.urdf", kLinkedUrdf)}).json();
   EXPECT_EQ(keys_of(info), (std::vector<std::string>{"model", "format", "up_axis", "unit_m", "total_mass",
                                                      "nodes", "clips", "ledger"}));
@@ -42,7 +42,7 @@ TEST(Info, HasTheDocumentedShape) {
 
 TEST(Info, GivesWhatTheFileSays) {
   // Every number stands in the file, so it must come out as it went in.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json info = pantin({"info", "--json", folder.write("linked.urdf", kLinkedUrdf)}).json();
   EXPECT_EQ(info["model"], "linked");
   EXPECT_EQ(info["format"], "urdf");
@@ -78,7 +78,7 @@ TEST(Info, GivesWhatTheFileSays) {
 TEST(Info, PutsTheModelInTheConfigurationAskedFor) {
   // Turning by a right angle about y takes x to -z: the carriage, 1 m out along x from z = 1, comes to the
   // origin, and 0.25 m of rail take it on to z = -0.25.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("linked.urdf", kLinkedUrdf);
   const std::string right_angle = "hinge=1.5707963267948966";
   const Json turned = pantin({"info", "--json", file, "--joint", right_angle}).json();
@@ -91,7 +91,7 @@ TEST(Info, PutsTheModelInTheConfigurationAskedFor) {
 
 TEST(Info, LetsMimicsFollowUnlessTheyAreNamed) {
   // echo = 2 * hinge + 0.1 by its definition in the file.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("linked.urdf", kLinkedUrdf);
   const Json followed = pantin({"info", "--json", file, "--joint", "hinge=0.4"}).json();
   EXPECT_DOUBLE_EQ(node_at(followed, "base/hand")["link"]["value"].get<double>(), 0.9);
@@ -101,7 +101,7 @@ TEST(Info, LetsMimicsFollowUnlessTheyAreNamed) {
 
 TEST(Info, TakesPathsForJoints) {
   // The path of the child names a joint as well as its own name does.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("linked.urdf", kLinkedUrdf);
   const Json info = pantin({"info", "--json", file, "--joint", "base/arm=0.5"}).json();
   EXPECT_EQ(node_at(info, "base/arm")["link"]["value"], 0.5);
@@ -109,7 +109,7 @@ TEST(Info, TakesPathsForJoints) {
 
 TEST(Info, WarnsOfValuesOutsideTheLimits) {
   // Pictures of impossible configurations are allowed, but said; strictness makes them errors.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("linked.urdf", kLinkedUrdf);
   const Ran ran = pantin({"info", "--json", file, "--joint", "hinge=2.5"});
   EXPECT_EQ(ran.code, 0);
@@ -121,7 +121,7 @@ TEST(Info, WarnsOfValuesOutsideTheLimits) {
 
 TEST(Info, ShowsTheClipAtATime) {
   // Linear from x = 0 to 8 in 4 s: 2 m/s; held before the first and after the last key.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("cart.gltf", cart_gltf());
   const auto x_at = [&](const std::string& time) {
     const Json info = pantin({"info", "--json", file, "--clip", "go", "--time", time}).json();
@@ -136,7 +136,7 @@ TEST(Info, ShowsTheClipAtATime) {
 
 TEST(Info, ListsClips) {
   // The file has two clips of one channel and 4 s each, and says nothing of masses but for the cart.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json info = pantin({"info", "--json", folder.write("cart.gltf", cart_gltf())}).json();
   EXPECT_EQ(info["clips"], Json::parse(R"([{"name": "go", "duration": 4.0, "channels": 1},
                                            {"name": "rise", "duration": 4.0, "channels": 1}])"));
@@ -147,7 +147,7 @@ TEST(Info, ListsClips) {
 
 TEST(Info, TellsPeopleTheSame) {
   // The table has a row for each node and the head names model and mass.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"info", folder.write("linked.urdf", kLinkedUrdf)});
   EXPECT_EQ(ran.code, 0);
   for (const char* text : {"linked", "5 nodes", "4 links", "3.5 kg", "base/arm/carriage", "slider 'rail'",
@@ -157,7 +157,7 @@ TEST(Info, TellsPeopleTheSame) {
 
 TEST(Info, NumbersReadBackExactly) {
   // Shortest round trip: a third has no short decimal form, and comes back as the same double.
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = kLinkedUrdf;
   const std::string third = "0.3333333333333333";
   text.replace(text.find("xyz=\"0 0 1\""), 11, "xyz=\"0 0 " + third + "\"");
@@ -172,7 +172,7 @@ struct Refusal {
 
 TEST(Info, NamesWhatItCannotFind) {
   // Each message names the culprit and what there is instead; nothing but the ledger is printed.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string urdf = folder.write("linked.urdf", kLinkedUrdf);
   const std::string gltf = folder.write("cart.gltf", cart_gltf());
   const std::vector<Refusal> refusals{

@@ -28,7 +28,7 @@ double y_at(const Json& result, double time) {
 TEST(Drives, PlayTheFirstClipByDefault) {
   // The key frames say 2 m/s along x; velocity is the exact derivative of the clip. Keys are single precision
   // but whole numbers, so only round-off remains.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--duration", "1", "--every", "0.25"});
   EXPECT_EQ(cart_at(result, 0.5)["drive"], "animated");
   EXPECT_NEAR(x_at(result, 0.5), 1, 1e-12);
@@ -39,7 +39,7 @@ TEST(Drives, PlayTheFirstClipByDefault) {
 
 TEST(Drives, PlayTheClipNamed) {
   // "rise" moves along y at 1 m/s, whichever way it is named.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("cart.gltf", cart_gltf());
   for (const char* argument : {"track=rise", "track/cart=rise", "track=[1]"}) {
     const Json result = run({file, "--animate", argument, "--duration", "1", "--every", "0.5"});
@@ -50,7 +50,7 @@ TEST(Drives, PlayTheClipNamed) {
 
 TEST(Drives, PlayNothingIfToldSo) {
   // Without clips nothing is bound, so no body is there to be sampled.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--animate", "none", "--duration", "0.5"});
   EXPECT_EQ(result["summary"]["bodies"], 0);
   EXPECT_TRUE(result["samples"][0]["bodies"].empty());
@@ -58,7 +58,7 @@ TEST(Drives, PlayNothingIfToldSo) {
 
 TEST(Drives, RefuseTwoClipsOnOneNode) {
   // One writer a node: the second clip is an error before anything runs.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin(
       {"run", folder.write("cart.gltf", cart_gltf()), "--animate", "track=go", "--animate", "track=rise"});
   EXPECT_EQ(ran.code, 1);
@@ -67,7 +67,7 @@ TEST(Drives, RefuseTwoClipsOnOneNode) {
 
 TEST(Drives, HandOverTheVelocityOfTheClip) {
   // Simulated from the start, without gravity: it flies on at the 2 m/s that the clip has at that instant.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--simulate", "track/cart", "--duration",
                            "2", "--every", "0.5"});
   EXPECT_EQ(cart_at(result, 2)["drive"], "simulated");
@@ -78,7 +78,7 @@ TEST(Drives, ToggleInFlightBothWays) {
   // Under gravity: animated until 0.5 s at 2 m/s along x, then a throw from (1, 0) with (2, 0) m/s, so at 1 s
   // it is at (2, -g/8); then animated again, and led back to the clip, which is never far below y = 0. RK4 is
   // exact here.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--toggle", "0.5:track/cart=simulated",
                            "--toggle", "1:track/cart=animated", "--duration", "3.5", "--every", "0.25"},
                           "0,-9.81,0");
@@ -96,7 +96,7 @@ TEST(Drives, ToggleInFlightBothWays) {
 TEST(Drives, ToggleAtTimesBetweenSteps) {
   // 0.3137 s is no multiple of the step or of the samples: the clip is left at 2 * 0.3137 m, and the throw is
   // exact from there, so that at 1 s the cart is where the clip would be; y has fallen for 1 - 0.3137 s.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run(
       {folder.write("cart.gltf", cart_gltf()), "--toggle", "0.3137:track/cart=simulated", "--duration", "1"},
       "0,-9.81,0");
@@ -106,7 +106,7 @@ TEST(Drives, ToggleAtTimesBetweenSteps) {
 
 TEST(Drives, ToggleAtTimeZeroAndAtTheEnd) {
   // Both ends belong to the run: the first sample shows the toggle at 0, the last one that at the end.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--toggle", "0:track/cart=simulated",
                            "--toggle", "1:track/cart=animated", "--duration", "1", "--every", "0.5"});
   EXPECT_EQ(cart_at(result, 0)["drive"], "simulated");
@@ -116,7 +116,7 @@ TEST(Drives, ToggleAtTimeZeroAndAtTheEnd) {
 
 TEST(Drives, SayWhenAToggleChangesNothing) {
   // What is animated stays animated, what is simulated stays simulated: most likely a slip of the user's.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("cart.gltf", cart_gltf());
   const Json animated = run({file, "--toggle", "0.1:track/cart=animated", "--duration", "0.2"});
   EXPECT_NE(animated["ledger"].dump().find("changes nothing: no node at or below it was simulated"),
@@ -128,7 +128,7 @@ TEST(Drives, SayWhenAToggleChangesNothing) {
 
 TEST(Drives, MeasureTheDriftAfreshAfterAToggle) {
   // Handing over adds the cart's energy at once; that is no drift of the integrator.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json summary =
       run({folder.write("cart.gltf", cart_gltf()), "--toggle", "0.5:track/cart=simulated", "--duration", "2"},
           "0,-9.81,0")["summary"];
@@ -140,7 +140,7 @@ TEST(Drives, MeasureTheDriftAfreshAfterAToggle) {
 
 TEST(Samples, LandExactlyOnTheirTimes) {
   // k * every for as long as that is before the end, then the end itself: the same products of doubles.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--duration", "1", "--every", "0.3"});
   std::vector<double> times;
   for (const Json& sample : result["samples"]) times.push_back(sample["t"].get<double>());
@@ -150,7 +150,7 @@ TEST(Samples, LandExactlyOnTheirTimes) {
 
 TEST(Samples, AreNotTakenTwiceAtTheEnd) {
   // 0.1 * 3 is not 0.3 in binary; the last sample is the end and stands once.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("cart.gltf", cart_gltf()), "--duration", "0.3", "--every", "0.1"});
   ASSERT_EQ(result["samples"].size(), 4u);
   EXPECT_EQ(result["samples"].back()["t"], 0.3);

@@ -18,7 +18,7 @@ Json run(std::vector<std::string> arguments) {
 
 TEST(Run, LetsAStoneFall) {
   // Free fall: z = -g t^2 / 2, v = -g t; RK4 is exact for a quadratic, so round-off over 240 steps is all.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run(
       {folder.write("stone.urdf", kStoneUrdf), "--floating-base", "--simulate", "all", "--duration", "1"});
   const Json& last = result["samples"].back()["bodies"]["stone"];
@@ -34,7 +34,7 @@ TEST(Run, LetsAStoneFall) {
 
 TEST(Run, HoldsAFixedBase) {
   // The base is fixed unless told otherwise: the stone is tied to the world and has nowhere to fall.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result =
       run({folder.write("stone.urdf", kPendulumUrdf), "--simulate", "all", "--duration", "0.5"});
   for (const Json& sample : result["samples"])
@@ -45,7 +45,7 @@ TEST(Run, HoldsAFixedBase) {
 
 TEST(Run, FollowsGravityAsGiven) {
   // x = a t^2 / 2 along the gravity that was asked for, nothing along any other axis.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("stone.urdf", kStoneUrdf), "--floating-base", "--simulate", "all",
                            "--duration", "1", "--gravity", "-2,0,0"});
   const Json& position = result["samples"].back()["bodies"]["stone"]["position_origin"];
@@ -57,7 +57,7 @@ TEST(Run, FollowsGravityAsGiven) {
 TEST(Run, BeginsWithTheJointValuesGiven) {
   // A small swing about the lowest point: theta(t) = 0.01 cos(w t), w^2 = m g c / (I + m c^2). The next term
   // of the period is theta^2 / 16 relative, 6e-6 here, which shifts the phase by less than 2e-5 rad in 1 s.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("p.urdf", kPendulumUrdf), "--simulate", "all", "--joint",
                            "hinge=0.01", "--duration", "1", "--every", "0.25"});
   const double w = std::sqrt(2 * 9.81 * 0.5 / (0.2 + 2 * 0.25));
@@ -72,7 +72,7 @@ TEST(Run, BeginsWithTheJointValuesGiven) {
 TEST(Run, SaysHowTrueItStayed) {
   // A pendulum without damping keeps its energy; RK4 at 1/240 s on a swing of 1.4 s errs by about (w h)^5 a
   // step, 1e-9 and less over a few periods. Its body stays on its joint to round-off.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json summary =
       run({folder.write("p.urdf", kPendulumUrdf), "--simulate", "all", "--joint", "hinge=1"})["summary"];
   EXPECT_EQ(summary["energy_conserved_expected"], true);
@@ -88,7 +88,7 @@ TEST(Run, SaysHowTrueItStayed) {
 
 TEST(Run, ExpectsNoConservationUnderDamping) {
   // Damping takes energy, so a drift would mean nothing: it is null, and the energy at the end is less.
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = kPendulumUrdf;
   const std::string axis = "<axis xyz=\"0 1 0\"/>";
   text.insert(text.find(axis) + axis.size(), "<dynamics damping=\"0.5\"/>");
@@ -102,7 +102,7 @@ TEST(Run, ExpectsNoConservationUnderDamping) {
 TEST(Run, TakesTheIntegratorAskedFor) {
   // Explicit Euler falls short of the parabola by exactly g h t / 2, semi-implicit Euler overshoots by the
   // same.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("stone.urdf", kStoneUrdf);
   const auto height = [&](const std::string& integrator) {
     return run({file, "--floating-base", "--simulate", "all", "--duration", "1", "--step", "0.01", "--every",
@@ -116,7 +116,7 @@ TEST(Run, TakesTheIntegratorAskedFor) {
 
 TEST(Run, TurnsModelsOfAnotherUpAxis) {
   // The cart rises along +Y of its file; with Z up in the scene that is +Z, and gravity acts along -Z.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string urdf = folder.write("stone.urdf", kStoneUrdf);
   const std::string gltf = folder.write("cart.gltf", cart_gltf());
   const Json result = run({urdf, gltf, "--animate", "cart/track/cart=rise", "--duration", "1"});
@@ -134,7 +134,7 @@ TEST(Run, TurnsModelsOfAnotherUpAxis) {
 
 TEST(Run, TellsEqualFilesApart) {
   // Two files of the same name get one node each, numbered as siblings of equal name are.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("stone.urdf", kStoneUrdf);
   const Json result = run({file, file, "--floating-base", "--simulate", "all", "--duration", "0.1"});
   const Json& bodies = result["samples"].back()["bodies"];
@@ -144,7 +144,7 @@ TEST(Run, TellsEqualFilesApart) {
 
 TEST(Run, NamesJointsByPathWhereNamesRepeat) {
   // Both pendulums call their joint 'hinge': the key is the path of the child then.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string a = folder.write("a.urdf", kPendulumUrdf);
   const std::string b = folder.write("b.urdf", kPendulumUrdf);
   const Json result = run({a, b, "--simulate", "all", "--joint", "b/base/rod=0.5", "--duration", "0.1"});
@@ -155,7 +155,7 @@ TEST(Run, NamesJointsByPathWhereNamesRepeat) {
 
 TEST(Run, WarnsWhenThereIsNothingToDo) {
   // A robot of which nothing is simulated stands still: allowed, but said.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Json result = run({folder.write("p.urdf", kPendulumUrdf), "--duration", "0.1"});
   EXPECT_NE(result["ledger"].dump().find("nothing is simulated and nothing is animated"), std::string::npos);
   EXPECT_EQ(result["samples"].size(), 7u);
@@ -164,7 +164,7 @@ TEST(Run, WarnsWhenThereIsNothingToDo) {
 TEST(Run, KeepsWhatWasReachedWhenNumbersOverflow) {
   // At 1e307 m/s^2 the speed passes the largest double, 1.8e308 m/s, within 18 s at the latest: exit 3, the
   // message says what to do, and the samples until then are in the file.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string out = folder.path("t.json");
   const Ran ran =
       pantin({"run", folder.write("stone.urdf", kStoneUrdf), "--floating-base", "--simulate", "all",
@@ -172,7 +172,7 @@ TEST(Run, KeepsWhatWasReachedWhenNumbersOverflow) {
   EXPECT_EQ(ran.code, 3) << ran.err;
   EXPECT_TRUE(ran.says("simulation")) << ran.err;
   EXPECT_NE(ran.out.find("wrote what was reached to"), std::string::npos) << ran.out;
-  const Json result = Json::parse(text_of(out));
+  const Json result = Json::parse(content_of(out));
   EXPECT_EQ(result["summary"]["completed"], false);
   EXPECT_GT(result["samples"].size(), 1u);
   EXPECT_LT(result["samples"].size(), 200u);
@@ -188,7 +188,7 @@ struct Refusal {
 
 TEST(Run, RefusesBeforeAnythingRuns) {
   // Bad names are found before the first step: exit 1, a remedy, and no output file.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string urdf = folder.write("p.urdf", kPendulumUrdf);
   const std::string gltf = folder.write("cart.gltf", cart_gltf());
   const std::string out = folder.path("t.csv");
@@ -216,7 +216,7 @@ TEST(Run, RefusesBeforeAnythingRuns) {
 
 TEST(Run, SaysWhyItCannotWrite) {
   // Output is opened before the run, so nothing is simulated in vain, and no temporary file stays behind.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("p.urdf", kPendulumUrdf);
   fs::create_directory(folder.path("folder.csv"));
   const Ran no_folder = pantin({"run", file, "--out", folder.path("nowhere/t.csv")});
@@ -235,7 +235,7 @@ TEST(Run, SaysWhyItCannotWrite) {
 
 TEST(Run, TellsPeopleASummary) {
   // Without --json people get the account of the run, and no bar where standard error is no terminal.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran =
       pantin({"run", folder.write("p.urdf", kPendulumUrdf), "--simulate", "all", "--duration", "1"});
   EXPECT_EQ(ran.code, 0);

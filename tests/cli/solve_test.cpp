@@ -48,7 +48,7 @@ TEST(Solve, SaysAllKeysOnOneLineAProblem) {
 
 TEST(Solve, GivesStatesWhereSamplesHoldOnlyTimes) {
   // A stone thrown: x = t, z = 5 - 5 t^2, v_z = -10 t; errors are null because nothing is there to compare.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"solve", "--json", "--states", folder.write("stone.json", kBareProblem)});
   ASSERT_EQ(ran.code, 0) << ran.err;
   const Json result = ran.json();
@@ -68,7 +68,7 @@ TEST(Solve, GivesStatesWhereSamplesHoldOnlyTimes) {
 
 TEST(Solve, RefusesByNameAndGoesOn) {
   // A file that is none does not keep the next from being solved; the code tells that one was refused.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"solve", "--json", folder.write("bad.json", "{}"), own_problem("welded_pendulum")});
   EXPECT_EQ(ran.code, 1);
   std::istringstream lines{ran.out};

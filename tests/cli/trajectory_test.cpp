@@ -52,14 +52,14 @@ void expect_same(const std::vector<std::string>& row, std::size_t first, const J
 
 TEST(Trajectory, SaysTheSameInCsvAndJson) {
   // Both are written from the same samples, and their numbers are meant to read back to the same doubles.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string csv = folder.path("t.csv");
   const std::string json = folder.path("t.json");
   const Ran ran = pantin({"run", folder.write("p.urdf", kPendulumUrdf), "--simulate", "all", "--joint",
                           "hinge=1", "--duration", "0.5", "--out", csv, "--out", json});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const Json result = Json::parse(text_of(json));
-  const Table table = parse_csv(text_of(csv));
+  const Json result = Json::parse(content_of(json));
+  const Table table = parse_csv(content_of(csv));
   ASSERT_EQ(table[0], kHeader);
   std::size_t i = 1;
   for (const Json& sample : result["samples"]) {
@@ -90,12 +90,12 @@ TEST(Trajectory, SaysTheSameInCsvAndJson) {
 
 TEST(Trajectory, QuotesNamesInCsv) {
   // Names may hold whatever JSON can: comma, quote and line break have to survive.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string csv = folder.path("t.csv");
   const Ran ran = pantin(
       {"run", folder.write("cart.gltf", cart_gltf(R"(a,\"b\"\nc)")), "--duration", "0.1", "--out", csv});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  const Table table = parse_csv(text_of(csv));
+  const Table table = parse_csv(content_of(csv));
   ASSERT_GT(table.size(), 1u);
   for (const std::vector<std::string>& row : table) EXPECT_EQ(row.size(), kHeader.size());
   EXPECT_EQ(table[1][1], "track/a,\"b\"\nc");
@@ -103,7 +103,7 @@ TEST(Trajectory, QuotesNamesInCsv) {
 
 TEST(Trajectory, HasTheDocumentedShape) {
   // The keys are promised in README.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin(
       {"run", "--json", folder.write("p.urdf", kPendulumUrdf), "--simulate", "all", "--duration", "0.1"});
   const Json result = ran.json();
@@ -130,7 +130,7 @@ TEST(Trajectory, HasTheDocumentedShape) {
 TEST(Trajectory, PlacesOriginAndCentreOfGravity) {
   // Turned by a right angle about y, the rod's centre of gravity, 0.5 m along its -z, lies at x = -0.5; the
   // origin stays on the pivot.
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ran ran = pantin({"run", "--json", folder.write("p.urdf", kPendulumUrdf), "--simulate", "all",
                           "--joint", "hinge=1.5707963267948966", "--duration", "0.1"});
   const Json result = ran.json();
@@ -143,24 +143,24 @@ TEST(Trajectory, PlacesOriginAndCentreOfGravity) {
 
 TEST(Trajectory, ReplacesAnOldFileWhole) {
   // The old content stands until the new one is complete; nothing else is left in the folder.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string model = folder.write("p.urdf", kPendulumUrdf);
   const std::string out = folder.write("t.csv", "old\n");
   ASSERT_EQ(pantin({"run", model, "--simulate", "all", "--duration", "0.1", "--out", out}).code, 0);
-  EXPECT_TRUE(text_of(out).starts_with("t,path,drive,"));
+  EXPECT_TRUE(content_of(out).starts_with("t,path,drive,"));
   EXPECT_EQ(folder.names().size(), 2u);
 }
 
 TEST(Trajectory, IsTheSameEveryTime) {
   // Same binary, same input: same bits; only the wall time may differ, and CSV has none.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string model = folder.write("p.urdf", kPendulumUrdf);
   std::vector<std::string> texts;
   for (const char* name : {"a.csv", "b.csv"}) {
     ASSERT_EQ(
         pantin({"run", model, "--simulate", "all", "--joint", "hinge=1", "--out", folder.path(name)}).code,
         0);
-    texts.push_back(text_of(folder.path(name)));
+    texts.push_back(content_of(folder.path(name)));
   }
   EXPECT_EQ(texts[0], texts[1]);
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace pantin::test {
 
@@ -25,6 +26,14 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::string path(const std::string& name) const { return (path_ / name).string(); }
+  /// Of all that is in it.
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator{path_})
+      all.push_back(entry.path().filename().string());
+    return all;
+  }
   /// The path of a file with this content.
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
     std::ofstream{path_ / name, std::ios::binary} << bytes;
