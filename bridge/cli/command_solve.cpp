@@ -18,6 +18,7 @@ struct SolveOptions {
   SolveSettings settings{};
   bool json{false};
   bool states{false};
+  bool strict{false};  ///< warnings are errors
 };
 
 SolveResult refused(const std::string& file, const std::vector<Diagnostic>& notes,
@@ -140,9 +141,13 @@ void print(const SolveResult& result, const SolveOptions& options) {
 ExitCode run_solve(const SolveOptions& options) {
   ExitCode code = ExitCode::Fine;
   for (const std::string& file : options.files) {
-    const Loaded<ReferenceProblem> problem = load_rigid_ref(file);
-    const SolveResult result =
-        problem.value ? solve(*problem.value, options.settings) : refused(file, problem.notes, options);
+    Loaded<ReferenceProblem> problem = load_rigid_ref(file);
+    if (options.strict) make_strict(problem.notes);
+    const bool is_usable = problem.value && !has_error(problem.notes);
+    SolveResult result =
+        is_usable ? solve(*problem.value, options.settings) : refused(file, problem.notes, options);
+    for (const Diagnostic& note : problem.notes)
+      if (note.severity == Severity::Warning) result.messages.push_back(to_string(note));
     if (options.json) write_json(result, options);
     else print(result, options);
     if (result.status == SolveStatus::Refused && code == ExitCode::Fine) code = ExitCode::BadInput;
@@ -178,6 +183,7 @@ void add_solve_command(CLI::App& program, Command& chosen) {
       ->excludes(step);
   app->add_option("--repeats", settings.repeats, "Runs to take the least time of, default 1")
       ->check(CLI::Range(1, 1000000));
+  app->add_flag("--strict", options->strict, "Treat warnings about the file as errors");
   app->add_flag("--states", options->states, "Give the full state at every sample time");
   app->add_flag("--json", options->json, "One JSON object a problem, each on a line");
   app->callback([options, &chosen] {

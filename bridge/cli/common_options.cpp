@@ -18,8 +18,8 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->allow_extra_args(false);
 }
 
-Loaded<Model> load(const std::string& file, const CommonOptions& options) {
-  LoadOptions load_options;
+Loaded<Model> load(const std::string& file, const CommonOptions& options, Account* account) {
+  LoadOptions load_options{.account = account};
   for (const std::string& path : options.package_paths) load_options.package_paths.emplace_back(path);
   Loaded<Model> loaded = load_model(file, load_options);
   if (options.strict) make_strict(loaded.notes);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <pantin/bridge/account.hpp>
 #include <pantin/bridge/cli/exit_code.hpp>
 #include <pantin/bridge/cli/ledger_text.hpp>
 #include <pantin/bridge/diagnostic.hpp>
@@ -22,8 +23,10 @@ struct CommonOptions {
 
 void add_common_options(CLI::App& app, CommonOptions& options);
 
-/// load_model, with warnings made errors where asked for; a model with an error is no value.
-[[nodiscard]] Loaded<Model> load(const std::string& file, const CommonOptions& options);
+/// load_model, with warnings made errors where asked for; a model with an error is no value. `account` gets
+/// what became of every element and attribute; it may be null.
+[[nodiscard]] Loaded<Model> load(const std::string& file, const CommonOptions& options,
+                                 Account* account = nullptr);
 
 /// Says what went wrong, as JSON on standard output too where that was asked for: {"ledger": [...]}.
 [[nodiscard]] ExitCode fail(const CommonOptions& options, const Ledger& ledger);

@@ -28,6 +28,20 @@ void count(std::string& text, std::size_t number, const char* what) {
   text += (text.empty() ? "" : ", ") + std::to_string(number) + ' ' + what + (number == 1 ? "" : "s");
 }
 
+/// What programs wrote beside nodes, loops instead of recursion. What concerns the file as a whole is
+/// assimp's own or was read into the frame.
+std::size_t metadata_of(const aiScene& scene) {
+  std::size_t pieces = 0;
+  std::vector<const aiNode*> open{scene.mRootNode};
+  while (!open.empty()) {
+    const aiNode* node = open.back();
+    open.pop_back();
+    if (node->mMetaData != nullptr) pieces += node->mMetaData->mNumProperties;
+    open.insert(open.end(), node->mChildren, node->mChildren + node->mNumChildren);
+  }
+  return pieces;
+}
+
 LeftOut left_out_of(const aiScene& scene) {
   std::size_t materials = 0;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
@@ -37,9 +51,13 @@ LeftOut left_out_of(const aiScene& scene) {
   }
   std::size_t bones = 0;
   std::size_t targets = 0;
+  std::size_t looks = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     bones += scene.mMeshes[i]->mNumBones;
     targets += scene.mMeshes[i]->mNumAnimMeshes;
+    const aiMesh& mesh = *scene.mMeshes[i];
+    looks += std::size_t{mesh.HasNormals()} + mesh.HasTangentsAndBitangents() + mesh.GetNumUVChannels() +
+             mesh.GetNumColorChannels();
   }
   LeftOut left_out;
   count(left_out.text, materials, "material");
@@ -48,6 +66,8 @@ LeftOut left_out_of(const aiScene& scene) {
   count(left_out.text, scene.mNumLights, "light");
   count(left_out.text, bones, "bone weighting");
   count(left_out.text, targets, "morph target");
+  count(left_out.text, looks, "vertex attribute");
+  count(left_out.text, metadata_of(scene), "metadata value");
   return left_out;
 }
 

@@ -60,7 +60,7 @@ void clean(TriangleMesh& mesh, Content& content) {
   const std::size_t before = mesh.triangles.size();
   std::erase_if(mesh.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   if (const std::size_t gone = before - mesh.triangles.size())
-    content.not_needed["triangles with two equal corners"] += gone;
+    content.not_needed["triangles with two equal corners"].add(gone);
   std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) place[index] = 0;
@@ -72,7 +72,7 @@ void clean(TriangleMesh& mesh, Content& content) {
     place[i] = used++;
   }
   if (const std::size_t gone = mesh.vertices.size() - used)
-    content.not_needed["vertices without triangle"] += gone;
+    content.not_needed["vertices without triangle"].add(gone);
   mesh.vertices.resize(used);
   for (auto& triangle : mesh.triangles) {
     for (std::uint32_t& index : triangle) index = place[index];

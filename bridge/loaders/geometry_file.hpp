@@ -19,10 +19,20 @@ struct Part {
   TriangleMesh mesh{};
 };
 
+/// How often something came up, and where first.
+struct Tally {
+  std::size_t count{0};
+  std::uint64_t line{0};  ///< in text, from 1; 0 = not known
+  void add(std::size_t more, std::uint64_t its_line = 0) {
+    if (count == 0) line = its_line;
+    count += more;
+  }
+};
+
 struct Content {
-  std::vector<Part> parts{};                        ///< each with a triangle at least
-  std::map<std::string, std::size_t> not_needed{};  ///< what physics has no use for: "normals" -> 12
-  std::map<std::string, std::size_t> dropped{};     ///< what was lost: "points or lines" -> 2
+  std::vector<Part> parts{};                  ///< each with a triangle at least
+  std::map<std::string, Tally> not_needed{};  ///< what physics has no use for: "normals" -> 12
+  std::map<std::string, Tally> dropped{};     ///< what was lost: "points or lines" -> 2
 };
 
 /// Thrown by the readers where a file is damaged; ends in load_geometry.

@@ -16,6 +16,7 @@ struct Face {
 struct Group {
   std::string name{};
   std::vector<Face> faces{};
+  std::uint64_t line{0};
 };
 
 class Reader {
@@ -50,13 +51,13 @@ class Reader {
     if (kind == "v") {
       for (Eigen::Index i = 0; i < 3; ++i) place_[i] = words.number("a coordinate");
       vertices_.push_back(place_);
-      if (!words.next().empty()) ++content_.not_needed["weights or colours of vertices"];
+      if (!words.next().empty()) content_.not_needed["weights or colours of vertices"].add(1, line);
     } else if (kind == "f") {
       face(words);
     } else if (kind == "o" || kind == "g") {
-      groups_.push_back({.name = std::string{words.rest_of_line()}});
+      groups_.push_back({.name = std::string{words.rest_of_line()}, .line = line});
     } else if (!kind.empty()) {
-      other(kind);
+      other(kind, line);
     }
   }
 
@@ -74,13 +75,13 @@ class Reader {
     }
     if (face.count == 0) throw Damage{face.line, "a face has no corner"};
     if (face.count < 3) {
-      ++content_.dropped["points or lines"];
+      content_.dropped["points or lines"].add(1, face.line);
     } else {
       groups_.back().faces.push_back(face);
     }
   }
 
-  void other(std::string_view kind) {
+  void other(std::string_view kind, std::uint64_t line) {
     struct Known {
       std::string_view word;
       const char* what;
@@ -91,11 +92,11 @@ class Reader {
     const auto* known =
         std::find_if(kNotNeeded.begin(), kNotNeeded.end(), [&](const Known& k) { return k.word == kind; });
     if (known != kNotNeeded.end()) {
-      ++content_.not_needed[known->what];
+      content_.not_needed[known->what].add(1, line);
     } else if (kind == "l" || kind == "p") {
-      ++content_.dropped["points or lines"];
+      content_.dropped["points or lines"].add(1, line);
     } else {
-      ++content_.dropped["statements '" + std::string{kind.substr(0, 20)} + '\''];
+      content_.dropped["statements '" + std::string{kind.substr(0, 20)} + '\''].add(1, line);
     }
   }
 
@@ -124,14 +125,16 @@ class Reader {
           }
           polygon.push_back(place[vertex]);
         }
-        if (face.count > 3) ++content_.not_needed["polygons as such: they are cut into triangles"];
+        if (face.count > 3)
+          content_.not_needed["polygons as such: they are cut into triangles"].add(1, face.line);
         triangulate(polygon, part.mesh.vertices, part.mesh.triangles);
       }
       clean(part.mesh, content_);
       if (!part.mesh.triangles.empty()) content_.parts.push_back(std::move(part));
+      else if (group.line > 0) content_.not_needed["groups without triangles"].add(1, group.line);
     }
     if (const auto unused = std::count(part_of.begin(), part_of.end(), std::size_t{0}); unused > 0)
-      content_.not_needed["vertices without triangle"] += static_cast<std::size_t>(unused);
+      content_.not_needed["vertices without triangle"].add(static_cast<std::size_t>(unused));
     return std::move(content_);
   }
 

@@ -199,7 +199,7 @@ void read_vertices(Values& values, const Element& element, TriangleMesh& mesh, C
     axis_of.push_back(is_axis ? found - kAxes.begin() : -1);
     if (is_axis) ++seen[static_cast<std::size_t>(found - kAxes.begin())];
     if (!is_axis)
-      content.not_needed["property '" + property.name.substr(0, 40) + "' of vertices"] = element.count;
+      content.not_needed["property '" + property.name.substr(0, 40) + "' of vertices"].add(element.count);
   }
   if (seen != std::array{1, 1, 1}) throw Damage{0, "has vertices without x, y or z"};
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -226,7 +226,7 @@ void read_faces(Values& values, const Element& element, TriangleMesh& mesh, Cont
         property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
     has_corners = has_corners || is_corners;
     if (!is_corners)
-      content.not_needed["property '" + property.name.substr(0, 40) + "' of faces"] = element.count;
+      content.not_needed["property '" + property.name.substr(0, 40) + "' of faces"].add(element.count);
   }
   if (!has_corners && element.count > 0) throw Damage{0, "has faces without vertex_indices"};
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -241,8 +241,8 @@ void read_faces(Values& values, const Element& element, TriangleMesh& mesh, Cont
       polygon.clear();
       for (std::uint64_t k = 0; k < corners; ++k)
         polygon.push_back(index_of(values.next(property.type), values, mesh));
-      if (corners < 3) ++content.dropped["points or lines"];
-      if (corners > 3) ++content.not_needed["polygons as such: they are cut into triangles"];
+      if (corners < 3) content.dropped["points or lines"].add(1);
+      if (corners > 3) content.not_needed["polygons as such: they are cut into triangles"].add(1);
       if (corners >= 3) triangulate(polygon, mesh.vertices, mesh.triangles);
     }
   }
@@ -267,7 +267,7 @@ Content read_ply(std::string_view bytes) {
     } else if (element.name == "face") {
       read_faces(values, element, part.mesh, content);
     } else {
-      content.dropped["element '" + element.name.substr(0, 40) + '\''] = element.count;
+      content.dropped["element '" + element.name.substr(0, 40) + '\''].add(element.count);
       for (std::uint64_t i = 0; i < element.count; ++i) {
         for (const Property& property : element.properties) skip(values, property);
       }

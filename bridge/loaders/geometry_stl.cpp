@@ -88,10 +88,10 @@ Content read_binary(std::string_view bytes) {
     }
     soup.add(corners);
   }
-  if (count > 0) content.not_needed["normals"] = static_cast<std::size_t>(count);
-  if (attributes > 0) content.not_needed["attributes of facets"] = attributes;
+  if (count > 0) content.not_needed["normals"].add(static_cast<std::size_t>(count));
+  if (attributes > 0) content.not_needed["attributes of facets"].add(attributes);
   if (const std::size_t more = bytes.size() - kHeader - count * kFacet; more > 0)
-    content.dropped["bytes behind the last triangle"] = more;
+    content.dropped["bytes behind the last triangle"].add(more);
   soup.finish(content);
   return content;
 }
@@ -151,7 +151,7 @@ Content read_text(std::string_view text) {
     words.rest_of_line();
     soup.finish(content);
   }
-  if (normals > 0) content.not_needed["normals"] = normals;
+  if (normals > 0) content.not_needed["normals"].add(normals);
   return content;
 }
 

@@ -178,6 +178,7 @@ AccessorData Accessors::read(const JsonValue& accessor, AccessorUse use) {
     if (!sparse)
       report_.tally(Severity::Warning, accessor, "it has no bufferView: all its numbers are 0",
                     "export the model again");
+    report_.supply(accessor, "bufferView", "0 is used for all numbers");
     charge(accessor, layout.count * layout.width);
     data.numbers.resize(data.count * data.width);
   }

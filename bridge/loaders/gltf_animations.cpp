@@ -43,10 +43,13 @@ class AnimationReader {
     const JsonValue target = expect(report_, require(report_, channel, "target"), JsonKind::Object);
     const JsonValue path = require(report_, target, "path");
     const std::optional<Channel> kind = channel_in(path);
-    if (!kind) return std::nullopt;
+    if (!kind) {
+      report_.marks().drop(channel, "is not a motion of nodes");
+      return std::nullopt;
+    }
     const std::optional<JsonValue> node_value = target.find("node");
     if (!node_value) {
-      report_.tally(Severity::Note, target, "a channel without a target node is not played", "");
+      report_.drop(Severity::Note, target, "a channel without a target node is not played", "");
       return std::nullopt;
     }
     const std::size_t node = document_.index(*node_value, Collection::Nodes);
@@ -69,8 +72,8 @@ class AnimationReader {
           "write an index below that");
     const std::int32_t position = nodes_.hierarchy.positions[node];
     if (position < 0) {
-      report_.tally(Severity::Note, channel, "a channel whose target node is not in the scene is not played",
-                    "");
+      report_.drop(Severity::Note, channel, "a channel whose target node is not in the scene is not played",
+                   "");
       return std::nullopt;
     }
     Track track = read_sampler(samplers.at(static_cast<std::size_t>(index)), *kind);
@@ -85,8 +88,8 @@ class AnimationReader {
     if (text == "translation") return Channel::Translation;
     if (text == "rotation") return Channel::Rotation;
     if (text == "scale") return Channel::Scale;
-    report_.tally(Severity::Warning, "animated '" + shortened(text) + "'", path,
-                  "is not a motion of nodes: dropped", "");
+    report_.drop(Severity::Warning, "animated '" + shortened(text) + "'", path,
+                 "is not a motion of nodes: dropped", "");
     return std::nullopt;
   }
 
@@ -183,7 +186,7 @@ void read_animations(const Document& document, const SceneNodes& nodes, Accessor
       Clip clip = reader.read(animation);
       if (!clip.tracks.empty()) model.clips.push_back(std::move(clip));
       else if (report.error_count() == errors)
-        report.tally(Severity::Warning, animation, "the animation moves no node of the scene: dropped", "");
+        report.drop(Severity::Warning, animation, "the animation moves no node of the scene: dropped", "");
     });
   }
   name_clips(model.clips);

@@ -68,7 +68,7 @@ Document::Document(const std::filesystem::path& file, Report& report)
     const std::string_view name = to_string(static_cast<Collection>(i));
     collections_[i] = member(report_, root(), name, JsonKind::Array);
     for (std::size_t k = 0; collections_[i] && k < collections_[i]->size(); ++k)
-      expect(report_, collections_[i]->at(k), JsonKind::Object);
+      check_kind(report_, collections_[i]->at(k), JsonKind::Object);
   }
 }
 

@@ -23,6 +23,9 @@ class Document {
   [[nodiscard]] const Container& container() const noexcept { return container_; }
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
   [[nodiscard]] JsonValue root() const { return tree_.root(); }
+  /// All values of the document, those that hold others before these.
+  [[nodiscard]] std::size_t value_count() const noexcept { return tree_.size(); }
+  [[nodiscard]] JsonValue value(std::size_t index) const { return tree_.value(index); }
   [[nodiscard]] std::size_t count(Collection collection) const;
   [[nodiscard]] JsonValue item(Collection collection, std::size_t i) const;
   /// The index that `value` holds into a collection; refused if it is none.

@@ -4,12 +4,17 @@
 
 namespace pantin::gltf {
 
-JsonValue expect(Report& report, const JsonValue& value, JsonKind kind) {
+void check_kind(Report& report, const JsonValue& value, JsonKind kind) {
   if (value.kind() != kind)
     report.refuse(
         value,
         std::string{to_string(value.kind())} + " stands where " + std::string{to_string(kind)} + " must be",
         "write " + std::string{to_string(kind)});
+}
+
+JsonValue expect(Report& report, const JsonValue& value, JsonKind kind) {
+  check_kind(report, value, kind);
+  report.marks().read(value);
   return value;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Typed reading of JSON members for the glTF reader: what is missing or of the wrong type is refused by its
-// place.
+// place, and what is read is marked so.
 #include <array>
 #include <cstdint>
 
@@ -8,6 +8,8 @@
 
 namespace pantin::gltf {
 
+/// Refuses a value of another kind, without reading it.
+void check_kind(Report& report, const JsonValue& value, JsonKind kind);
 /// The value itself if it is of this kind; else refused.
 JsonValue expect(Report& report, const JsonValue& value, JsonKind kind);
 /// A member that must be there.

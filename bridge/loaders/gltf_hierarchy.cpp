@@ -79,6 +79,10 @@ std::optional<JsonValue> chosen_scene(const Document& document) {
   const std::optional<JsonValue> named = document.referred(document.root(), "scene", Collection::Scenes);
   if (count == 0) return std::nullopt;
   const JsonValue scene = named ? *named : document.item(Collection::Scenes, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonValue other = document.item(Collection::Scenes, i);
+    if (other.index() != scene.index()) report.marks().drop(other, "another scene is loaded");
+  }
   if (count > 1)
     report.tally(Severity::Note, "scenes", scene,
                  "of " + std::to_string(count) + " scenes the " + (named ? "default" : "first") + " one, " +
@@ -111,6 +115,9 @@ std::vector<std::uint32_t> roots_of(const Document& document, const JsonValue& s
 void note_nodes_outside(const Document& document, const Hierarchy& hierarchy) {
   const std::size_t outside = hierarchy.positions.size() - hierarchy.order.size();
   if (outside == 0) return;
+  for (std::size_t i = 0; i < hierarchy.positions.size(); ++i)
+    if (hierarchy.positions[i] < 0)
+      document.report().marks().drop(document.item(Collection::Nodes, i), "not in the scene: not loaded");
   const auto first = std::ranges::find(hierarchy.positions, -1) - hierarchy.positions.begin();
   document.report().tally(Severity::Note, "nodes",
                           document.item(Collection::Nodes, static_cast<std::size_t>(first)),

@@ -48,8 +48,8 @@ std::optional<std::vector<Affine>> read_instances(const JsonValue& node, const D
   for (std::size_t i = 0; i < attributes->size(); ++i) {
     const std::string_view key = attributes->at(i).key();
     if (key == "TRANSLATION" || key == "ROTATION" || key == "SCALE") continue;
-    report.tally(Severity::Note, "instance attribute '" + shortened(key) + "'", attributes->at(i),
-                 "not loaded: physics needs places only", "");
+    report.drop(Severity::Note, "instance attribute '" + shortened(key) + "'", attributes->at(i),
+                "not loaded: physics needs places only", "");
   }
   std::vector<Affine> instances(count.value_or(0), Affine::Identity());
   accessors.charge(*attributes, 16 * instances.size());

@@ -34,25 +34,30 @@ constexpr std::array<std::string_view, 5> kPrimitiveKeys{"attributes", "indices"
 constexpr std::array<std::string_view, 10> kNodeKeys{
     "camera", "children", "skin", "matrix", "mesh", "rotation", "scale", "translation", "weights", "name"};
 constexpr std::array<std::string_view, 2> kSceneKeys{"nodes", "name"};
+constexpr std::array<std::string_view, 1> kInstancingKeys{"attributes"};
 
 const char* const kAppearance = "not loaded: physics has no use for appearance";
+
+void check(Report& report, const JsonValue& object, Keys known);
 
 void note_extension(Report& report, const JsonValue& at, std::string_view name) {
   const std::string subject = "extension '" + shortened(name) + "'";
   switch (use_of(name)) {
     case ExtensionUse::Read:
+      if (name == "EXT_mesh_gpu_instancing") check(report, at, kInstancingKeys);
       return;
     case ExtensionUse::Appearance:
-      report.tally(Severity::Note, subject, at, kAppearance, "");
+      report.drop(Severity::Note, subject, at, kAppearance, "");
       return;
     case ExtensionUse::Unknown:
-      report.tally(Severity::Warning, subject, at, "not known to Pantin: what it says is dropped",
-                   "express it in core glTF 2.0 if it matters");
+      report.drop(Severity::Warning, subject, at, "not known to Pantin: what it says is dropped",
+                  "express it in core glTF 2.0 if it matters");
   }
 }
 
 /// Tells of the members of an object that are not in `known`.
 void check(Report& report, const JsonValue& object, Keys known) {
+  report.marks().know(object);
   for (std::size_t i = 0; i < object.size() && object.kind() == JsonKind::Object; ++i) {
     const JsonValue value = object.at(i);
     const std::string_view key = value.key();
@@ -60,9 +65,11 @@ void check(Report& report, const JsonValue& object, Keys known) {
     if (key == "extras") {
       note_extras(report, value);
     } else if (key == "extensions") {
+      report.marks().read(value);
       for (std::size_t k = 0; k < value.size() && value.kind() == JsonKind::Object; ++k)
         note_extension(report, value.at(k), value.at(k).key());
     } else {
+      report.marks().drop(value, "glTF 2.0 does not know it here");
       report.tally(Severity::Warning, "property '" + shortened(key) + "'", object,
                    "glTF 2.0 does not know it here: dropped", "check its spelling");
     }
@@ -98,12 +105,12 @@ void check_primitive(Report& report, const JsonValue& primitive) {
   const std::optional<JsonValue> attributes = primitive.find("attributes");
   each(attributes, [&](const JsonValue& attribute) {
     if (attribute.key() != "POSITION")
-      report.tally(Severity::Note, "vertex attribute '" + shortened(attribute.key()) + "'", attribute,
-                   "not loaded: physics needs positions only", "");
+      report.drop(Severity::Note, "vertex attribute '" + shortened(attribute.key()) + "'", attribute,
+                  "not loaded: physics needs positions only", "");
   });
   if (const std::optional<JsonValue> targets = primitive.find("targets"))
-    report.tally(Severity::Warning, "morph targets", *targets, "not loaded: the mesh keeps its base shape",
-                 "");
+    report.drop(Severity::Warning, "morph targets", *targets, "not loaded: the mesh keeps its base shape",
+                "");
 }
 
 void check_collections(const Document& document) {
@@ -133,16 +140,16 @@ void note_left_out(const Document& document) {
     const std::optional<JsonValue> items = member(report, document.root(), name, JsonKind::Array);
     if (!items || items->size() == 0) continue;
     const bool deforms = name == "skins";
-    report.tally(deforms ? Severity::Warning : Severity::Note, std::string{name}, *items,
-                 deforms ? "not loaded: skinned meshes keep the shape they have in the file" : kAppearance,
-                 "", items->size());
+    report.drop(deforms ? Severity::Warning : Severity::Note, std::string{name}, *items,
+                deforms ? "not loaded: skinned meshes keep the shape they have in the file" : kAppearance, "",
+                items->size());
   }
 }
 
 }  // namespace
 
 void note_extras(Report& report, const JsonValue& extras) {
-  report.tally(Severity::Note, "extras", extras, "not read: data of applications", "");
+  report.drop(Severity::Note, "extras", extras, "not read: data of applications", "");
 }
 
 void take_inventory(const Document& document) {

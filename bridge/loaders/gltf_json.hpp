@@ -31,6 +31,7 @@ class JsonValue {
   [[nodiscard]] std::string_view key() const noexcept;    ///< its name as a member; else empty
   [[nodiscard]] std::size_t position() const noexcept;    ///< its place among the parent's values
   [[nodiscard]] std::optional<JsonValue> parent() const;  ///< nothing for the root
+  [[nodiscard]] std::uint32_t index() const noexcept { return entry_; }  ///< among all values of the tree
   /// RFC 6901, "" for the root; very long keys and pointers are shortened.
   [[nodiscard]] std::string pointer() const;
 
@@ -54,6 +55,11 @@ class JsonTree {
   [[nodiscard]] static std::optional<JsonTree> parse(std::string_view text, JsonError& error);
 
   [[nodiscard]] JsonValue root() const { return {*this, 0}; }
+  /// All values, those that hold others before these; index 0 is the root.
+  [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
+  [[nodiscard]] JsonValue value(std::size_t index) const {
+    return {*this, static_cast<std::uint32_t>(index)};
+  }
   /// A member whose key already stands in its object, if there is one: readers disagree on what it means.
   [[nodiscard]] std::optional<JsonValue> first_duplicate() const;
 

@@ -37,10 +37,10 @@ class MeshReader {
     const JsonValue attributes = expect(report_, require(report_, primitive, "attributes"), JsonKind::Object);
     const std::optional<JsonValue> positions = attributes.find("POSITION");
     if (mode < 4 || !positions) {
-      report_.tally(Severity::Warning, primitive,
-                    mode < 4 ? "points and lines have no volume: not loaded"
-                             : "a primitive without POSITION is not loaded",
-                    "");
+      report_.drop(Severity::Warning, primitive,
+                   mode < 4 ? "points and lines have no volume: not loaded"
+                            : "a primitive without POSITION is not loaded",
+                   "");
       return;
     }
     const Vertices vertices = read_vertices(*positions);
@@ -140,8 +140,8 @@ void read_meshes(const Document& document, const SceneNodes& nodes, Accessors& a
   }
   for (std::size_t i = 0; i < meshes.size(); ++i)
     if (!is_read[i])
-      report.tally(Severity::Note, "meshes", document.item(Collection::Meshes, i),
-                   "on no node of the scene: not loaded", "");
+      report.drop(Severity::Note, "meshes", document.item(Collection::Meshes, i),
+                  "on no node of the scene: not loaded", "");
   report.stop_at_errors();
 }
 

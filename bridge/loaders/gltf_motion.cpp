@@ -18,12 +18,15 @@ std::optional<JsonValue> extension_of(Report& report, const JsonValue& object, s
 
 void tell_unread(Report& report, std::string_view extension, const JsonValue& value, std::size_t count) {
   if (value.key() == "extras") return note_extras(report, value);
-  report.tally(Severity::Warning, std::string{extension} + " '" + shortened(value.key()) + "'", value,
-               "not read yet", "set it up through the library or the command line", count);
+  report.drop(Severity::Warning, std::string{extension} + " '" + shortened(value.key()) + "'", value,
+              "not read yet", "set it up through the library or the command line", count);
 }
 
 /// Whether the value says what holds without it: false, a gravity factor of 1, no velocity.
 bool is_default(const JsonValue& value) {
+  constexpr std::array<std::string_view, 4> kKnown{"isKinematic", "gravityFactor", "linearVelocity",
+                                                   "angularVelocity"};
+  if (std::ranges::find(kKnown, value.key()) == kKnown.end()) return false;
   if (value.kind() == JsonKind::Boolean) return !value.boolean();
   if (value.kind() == JsonKind::Number) return value.key() == "gravityFactor" && value.number() == 1.0;
   if (value.kind() != JsonKind::Array) return false;
@@ -49,7 +52,9 @@ void check_members(Report& report, const JsonValue& motion) {
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const JsonValue value = motion.at(i);
     const bool is_read = std::ranges::find(kRead, value.key()) != kRead.end();
-    if (!is_read && !is_default(value)) tell_unread(report, kExtension, value, 1);
+    if (is_read) continue;
+    if (is_default(value)) report.marks().drop(value, "says what holds without it");
+    else tell_unread(report, kExtension, value, 1);
   }
 }
 
@@ -58,6 +63,7 @@ std::optional<MassProperties> mass_in(Report& report, const JsonValue& motion) {
   const auto centre = numbers<3>(report, motion, "centerOfMass");
   const auto moments = numbers<3>(report, motion, "inertiaDiagonal");
   if (!mass || to_number(report, *mass) == 0) {
+    report.marks().drop(motion, "says no mass that is kept");
     if (mass)
       report.tally(Severity::Warning, *mass,
                    "a mass of 0 means infinite, which is not read yet: no mass is kept",
@@ -73,7 +79,7 @@ std::optional<MassProperties> mass_in(Report& report, const JsonValue& motion) {
   if (is_finite) {
     result.I_BBcm_B = inertia_of(report, motion, *moments);
   } else if (moments) {
-    report.tally(
+    report.convert(
         Severity::Warning, *motion.find("inertiaDiagonal"),
         "a moment of inertia of 0 means infinite, which is not read yet: the inertia is kept as zero",
         "write the true moments");

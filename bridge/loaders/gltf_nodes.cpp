@@ -44,8 +44,8 @@ Quaternion unit_quaternion(Report& report, const JsonValue& at, const std::array
     report.refuse(at, "a quaternion is zero or too great to have a direction",
                   "write a unit quaternion x, y, z, w");
   if (std::abs(length - 1) > tolerance)
-    report.tally(Severity::Warning, at, "a quaternion is not of unit length: normalised",
-                 "write unit quaternions x, y, z, w");
+    report.convert(Severity::Warning, at, "a quaternion is not of unit length: normalised",
+                   "write unit quaternions x, y, z, w");
   return Quaternion{Eigen::Vector4d{q.coeffs() / length}};
 }
 
@@ -59,6 +59,7 @@ SceneNodes read_nodes(const Document& document, Model& model) {
   for (const std::uint32_t index : nodes.hierarchy.order) {
     report.try_part([&] {
       const JsonValue item = document.item(Collection::Nodes, index);
+      report.marks().read(item);
       const std::int32_t parent = nodes.hierarchy.parents[index];
       ModelNode node{.name = std::string{text_or_empty(report, item, "name")}, .place = report.place(item)};
       if (parent >= 0) node.parent = nodes.hierarchy.positions[static_cast<std::size_t>(parent)];

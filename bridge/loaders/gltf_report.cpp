@@ -82,6 +82,30 @@ void Report::tally(Severity severity, const JsonValue& at, const std::string& pr
   count_in(problem, 1, {severity, place(at), subject_of(at), problem, std::move(remedy)});
 }
 
+void Report::drop(Severity severity, std::string subject, const JsonValue& at, const std::string& problem,
+                  std::string remedy, std::size_t count) {
+  marks_.drop(at, problem);
+  tally(severity, std::move(subject), at, problem, std::move(remedy), count);
+}
+
+void Report::drop(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy) {
+  marks_.drop(at, problem);
+  tally(severity, at, problem, std::move(remedy));
+}
+
+void Report::convert(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy) {
+  marks_.convert(at, problem);
+  tally(severity, at, problem, std::move(remedy));
+}
+
+void Report::supply(const JsonValue& at, std::string_view key, std::string why) {
+  supplied_.push_back({.fate = Fate::Defaulted,
+                       .place = place(at),
+                       .subject = subject_of(at),
+                       .item = at.pointer() + '/' + std::string{key},
+                       .why = std::move(why)});
+}
+
 void Report::mention(Severity severity, std::string subject, std::string problem, std::string remedy) {
   const std::string kind = subject + '\n' + problem;
   count_in(kind, 1, {severity, file_, std::move(subject), std::move(problem), std::move(remedy)});

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include <pantin/bridge/account.hpp>
 #include <pantin/bridge/diagnostic.hpp>
 
 #include "gltf_json.hpp"
+#include "gltf_marks.hpp"
 
 namespace pantin::gltf {
 
@@ -32,6 +34,16 @@ class Report {
              std::string remedy, std::size_t count = 1);
   /// The same, told of the item that holds the first such value.
   void tally(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy);
+  /// The same as both, of a value that is left out with all that it holds.
+  void drop(Severity severity, std::string subject, const JsonValue& at, const std::string& problem,
+            std::string remedy, std::size_t count = 1);
+  void drop(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy);
+  /// The same as the second, of a value that is in the model as another.
+  void convert(Severity severity, const JsonValue& at, const std::string& problem, std::string remedy);
+  /// Something that the file does not say and that has a value nevertheless; `key` is where it would stand.
+  void supply(const JsonValue& at, std::string_view key, std::string why);
+  [[nodiscard]] Marks& marks() noexcept { return marks_; }
+  [[nodiscard]] const std::vector<AccountEntry>& supplied() const noexcept { return supplied_; }
   /// A finding about the file as a whole.
   void mention(Severity severity, std::string subject, std::string problem, std::string remedy);
 
@@ -67,6 +79,8 @@ class Report {
   std::vector<Finding> findings_;
   std::map<std::string, std::size_t> kinds_;  // kind -> position in findings_
   std::size_t errors_{0};
+  Marks marks_{};
+  std::vector<AccountEntry> supplied_{};
 };
 
 /// "node 3 'crate'", "accessor 7", "asset", ...: the item of the document's top level that holds the value.

@@ -114,6 +114,31 @@ void note_noise(const std::string& noise, const std::string& place, std::vector<
   notes.push_back({Severity::Note, place, "parser", "printed: " + shown, ""});
 }
 
+/// All that there is to say: which elements a file of that format has, and which of them assimp passed over,
+/// is known to assimp alone.
+void add_account(const Loaded<Model>& loaded, const std::string& place, Account& account) {
+  std::size_t vertices = 0, triangles = 0, keys = 0;
+  for (const ModelNode& node : loaded.value->nodes) {
+    for (const ModelMesh& mesh : node.meshes) {
+      vertices += mesh.mesh->vertices.size();
+      triangles += mesh.mesh->triangles.size();
+    }
+  }
+  for (const Clip& clip : loaded.value->clips)
+    for (const Track& track : clip.tracks) keys += track.times.size();
+  const auto add = [&](const char* what, std::size_t count) {
+    if (count > 0) account.push_back({.place = place, .subject = "file", .item = what, .count = count});
+  };
+  add("nodes", loaded.value->nodes.size());
+  add("vertices", vertices);
+  add("triangles", triangles);
+  add("keys of animations", keys);
+  for (const Diagnostic& note : loaded.notes) {
+    if (note.problem.find("drop") == std::string::npos) continue;
+    account.push_back({.fate = Fate::Dropped, .place = place, .subject = note.subject, .why = note.problem});
+  }
+}
+
 Loaded<Model> import(const std::filesystem::path& file, const LoadOptions& options) {
   const ImportSettings& settings = options.import;
   if (auto problem = problem_with_file(file, kMaxBytes)) return {{}, {*std::move(problem)}};
@@ -136,6 +161,11 @@ Loaded<Model> import(const std::filesystem::path& file, const LoadOptions& optio
     for (Diagnostic& note : loaded.notes) note.place = place;  // one file, named as the caller named it
   }
   note_noise(ran.noise, place, loaded.notes);
+  if (loaded.value && !has_error(loaded.notes)) {
+    loaded.notes.push_back({Severity::Note, place, "file",
+                            "is read by assimp, which does not tell what it passes over itself", ""});
+    if (options.account != nullptr) add_account(loaded, place, *options.account);
+  }
   return loaded;
 }
 

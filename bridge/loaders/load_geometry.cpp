@@ -24,11 +24,37 @@ Content read(const std::string& format, std::string_view bytes) {
   return geometry_loader::read_ply(bytes);
 }
 
-std::string list_of(const std::map<std::string, std::size_t>& counted) {
+using geometry_loader::Tally;
+
+std::string list_of(const std::map<std::string, Tally>& counted, bool with_lines) {
   std::string text;
-  for (const auto& [what, count] : counted)
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + ' ' + what;
+  for (const auto& [what, tally] : counted) {
+    text += (text.empty() ? "" : ", ") + std::to_string(tally.count) + ' ' + what;
+    if (with_lines && tally.line > 0)
+      text += (tally.count > 1 ? " (first in line " : " (line ") + std::to_string(tally.line) + ')';
+  }
   return text;
+}
+
+void add_account(const Content& content, const std::string& place, Account& account) {
+  std::size_t vertices = 0, triangles = 0;
+  for (const geometry_loader::Part& part : content.parts) {
+    vertices += part.mesh.vertices.size();
+    triangles += part.mesh.triangles.size();
+  }
+  const auto add = [&](Fate fate, const std::string& item, const Tally& tally, const char* why) {
+    account.push_back({.fate = fate,
+                       .place = tally.line > 0 ? place + ':' + std::to_string(tally.line) : place,
+                       .subject = "file",
+                       .item = item,
+                       .why = why,
+                       .count = tally.count});
+  };
+  add(Fate::Read, "vertices", {vertices}, "");
+  add(Fate::Read, "triangles", {triangles}, "");
+  for (const auto& [what, tally] : content.not_needed)
+    add(Fate::Dropped, what, tally, "not needed for physics");
+  for (const auto& [what, tally] : content.dropped) add(Fate::Dropped, what, tally, "cannot be kept");
 }
 
 void add_notes(const Content& content, UpAxis up, const std::string& place, std::vector<Diagnostic>& notes) {
@@ -37,10 +63,10 @@ void add_notes(const Content& content, UpAxis up, const std::string& place, std:
   notes.push_back({Severity::Note, place, "unit", "is not stated by the file: 1 m is taken", ""});
   if (!content.not_needed.empty()) {
     notes.push_back({Severity::Note, place, "file",
-                     "not needed for physics and dropped: " + list_of(content.not_needed), ""});
+                     "not needed for physics and dropped: " + list_of(content.not_needed, false), ""});
   }
   if (!content.dropped.empty())
-    notes.push_back({Severity::Warning, place, "file", "dropped: " + list_of(content.dropped), ""});
+    notes.push_back({Severity::Warning, place, "file", "dropped: " + list_of(content.dropped, true), ""});
 }
 
 Model model_of(Content content, const std::filesystem::path& file, bool geometry) {
@@ -80,6 +106,7 @@ Loaded<Model> load_geometry(const std::filesystem::path& file, const LoadOptions
     }
     Loaded<Model> loaded;
     add_notes(content, format_of(file) == "obj" ? UpAxis::Y : UpAxis::Z, place, loaded.notes);
+    if (options.account != nullptr) add_account(content, place, *options.account);
     if (!options.geometry)
       loaded.notes.push_back({Severity::Note, place, "file", "meshes are not kept, as asked for", ""});
     loaded.value = model_of(std::move(content), file, options.geometry);

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "gltf_account.hpp"
 #include "gltf_animations.hpp"
 #include "gltf_inventory.hpp"
 #include "gltf_meshes.hpp"
@@ -22,6 +23,7 @@ Model read_model(const std::filesystem::path& file, const LoadOptions& options, 
   accessors.buffers().note_unused();
   gltf::note_physics_lists(document);
   gltf::take_inventory(document);
+  gltf::settle(document, report.has_errors() ? nullptr : options.account);
   return model;
 }
 

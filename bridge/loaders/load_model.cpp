@@ -122,8 +122,10 @@ Loaded<Model> load_model(const std::filesystem::path& file, const LoadOptions& o
       return failure(file, "needs component " + std::string{loader.component} + ", which is not built in",
                      "build Pantin with it, or convert the file");
     }
+    const std::size_t before = options.account != nullptr ? options.account->size() : 0;
     Loaded<Model> loaded = loader.load(file, options);
     if (has_error(loaded.notes)) loaded.value.reset();
+    if (!loaded.value && options.account != nullptr) options.account->resize(before);
     return loaded;
   } catch (const std::exception& e) {
     return failure(file, std::string{"cannot be read: "} + e.what(), "");

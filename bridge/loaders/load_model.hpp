@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include <pantin/bridge/account.hpp>
 #include <pantin/bridge/diagnostic.hpp>
 #include <pantin/bridge/loaders/import_settings.hpp>
 #include <pantin/bridge/model.hpp>
@@ -17,10 +18,12 @@ using MeshReader = std::function<Loaded<std::shared_ptr<const TriangleMesh>>(con
 
 struct LoadOptions {
   std::vector<std::filesystem::path> package_paths{};  ///< searched first for package:// (URDF)
-  bool geometry{true};       ///< read mesh files and mesh data; false = hierarchy only
-  MeshReader mesh_reader{};  ///< for mesh files that a model names (URDF); empty = load_model
-                             ///< puts load_mesh here, others read none
-  ImportSettings import{};   ///< of formats that are parsed in a process of their own
+  bool geometry{true};        ///< read mesh files and mesh data; false = hierarchy only
+  MeshReader mesh_reader{};   ///< for mesh files that a model names (URDF); empty = load_model
+                              ///< puts load_mesh here, others read none
+  ImportSettings import{};    ///< of formats that are parsed in a process of their own
+  Account* account{nullptr};  ///< gets an entry for every element and attribute of the file, and of mesh
+                              ///< files that it names; null = none is kept
 };
 
 /// The format is chosen by file name extension, else by content. Never throws and never aborts for bad input:

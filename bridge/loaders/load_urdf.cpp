@@ -8,6 +8,7 @@
 #include <pantin/bridge/input_file.hpp>
 #include <pantin/bridge/loaders/urdf_build.hpp>
 #include <pantin/bridge/loaders/urdf_document.hpp>
+#include <pantin/bridge/loaders/urdf_inventory.hpp>
 #include <pantin/bridge/loaders/urdf_ledger.hpp>
 #include <pantin/bridge/loaders/urdf_meshes.hpp>
 #include <pantin/bridge/loaders/urdf_parse.hpp>
@@ -23,7 +24,9 @@ std::optional<Model> read_robot(const std::filesystem::path& file, const std::st
                                 const LoadOptions& options, urdf_loader::Ledger& ledger) {
   using namespace urdf_loader;
   const auto document = parse_xml(text, ledger);
-  tinyxml2::XMLElement* robot = document != nullptr ? find_robot(*document, ledger) : nullptr;
+  if (document == nullptr) return std::nullopt;
+  const Inventory inventory{*document};
+  tinyxml2::XMLElement* robot = find_robot(*document, ledger);
   if (robot == nullptr) return std::nullopt;
   remove_unknown(*robot, ledger);
   const Survey found = survey(*robot, ledger);
@@ -31,7 +34,9 @@ std::optional<Model> read_robot(const std::filesystem::path& file, const std::st
   const auto parsed = parse_urdf(print_xml(*robot), ledger);
   if (parsed == nullptr) return std::nullopt;
   Meshes meshes{file, options, ledger};
-  return build_model(*parsed, found, meshes, ledger);
+  std::optional<Model> model = build_model(*parsed, found, meshes, ledger);
+  if (model) inventory.settle(*document, ledger, options.account);
+  return model;
 }
 
 }  // namespace

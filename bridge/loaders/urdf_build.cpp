@@ -82,7 +82,8 @@ Link link_of(const urdf::Joint& joint, JointType type) {
 /// The shapes of one link.
 class Shapes {
  public:
-  Shapes(const LinkEntry& link, Meshes& meshes) : link_{link}, meshes_{meshes} {}
+  Shapes(const LinkEntry& link, Meshes& meshes, Ledger& ledger)
+      : link_{link}, meshes_{meshes}, ledger_{ledger} {}
 
   void add_collision(const urdf::Collision& collision, const GeometryEntry& entry, ModelNode& node) const {
     const Pose X_BS = pose_of(collision.origin);
@@ -107,6 +108,8 @@ class Shapes {
         const auto& mesh = cast<urdf::Mesh>(collision.geometry);
         if (auto triangles = meshes_.find(mesh.filename, entry.line, subject("collision", entry))) {
           add(MeshShape{std::move(triangles), vector_of(mesh.scale)});
+        } else {
+          ledger_.lose({entry.number, {}, kNoMesh});
         }
         break;
       }
@@ -117,7 +120,7 @@ class Shapes {
     if (visual.geometry->type != urdf::Geometry::MESH) return;  // the survey keeps no others
     const auto& mesh = cast<urdf::Mesh>(visual.geometry);
     auto triangles = meshes_.find(mesh.filename, entry.line, subject("visual", entry));
-    if (triangles == nullptr) return;
+    if (triangles == nullptr) return ledger_.lose({entry.number, {}, kNoMesh});
     const Affine M_NS = affine_of(pose_of(visual.origin)) * Eigen::Scaling(vector_of(mesh.scale));
     const std::string stem = std::filesystem::path{mesh.filename}.stem().string();
     node.meshes.push_back({entry.name.empty() ? stem : entry.name, std::move(triangles), M_NS});
@@ -133,8 +136,11 @@ class Shapes {
     return "link '" + link_.name + "', " + what + name;
   }
 
+  static constexpr const char* kNoMesh = "its mesh is not read";
+
   const LinkEntry& link_;
   Meshes& meshes_;
+  Ledger& ledger_;
 };
 
 /// Whether urdfdom kept just the shapes that the survey left in its copy.
@@ -200,7 +206,7 @@ std::optional<Model> build_model(const urdf::ModelInterface& robot, const Survey
     ModelNode node{.name = entry.name, .parent = at.parent, .place = ledger.place(entry.line)};
     if (joint != nullptr) add_joint(*joint, *joint_entry, node);
     if (link->inertial != nullptr) node.mass = mass_of(*link->inertial);
-    const Shapes shapes{entry, meshes};
+    const Shapes shapes{entry, meshes, ledger};
     for (std::size_t i = 0; i < entry.collisions.size(); ++i) {
       shapes.add_collision(*link->collision_array[i], entry.collisions[i], node);
     }

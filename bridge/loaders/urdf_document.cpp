@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include <pantin/bridge/loaders/urdf_inventory.hpp>
 #include <pantin/bridge/loaders/urdf_numbers.hpp>
 
 namespace pantin::urdf_loader {
@@ -79,7 +80,7 @@ void check_version(XMLElement& robot, Ledger& ledger) {
   const char* version = robot.Attribute("version");
   if (version == nullptr) return;
   if (parse_number(version) == 1.0) {
-    robot.DeleteAttribute("version");  // urdfdom wants "1.0" to the letter
+    robot.SetAttribute("version", "1.0");  // urdfdom wants it to the letter
   } else {
     ledger.error({robot.GetLineNum(), "robot", std::string{"version '"} + version + "' of URDF is not known",
                   "only version 1.0 is"});
@@ -117,7 +118,7 @@ XMLElement* find_robot(tinyxml2::XMLDocument& document, Ledger& ledger) {
     if (other != robot) {
       ledger.warning({other->GetLineNum(), std::string{"element <"} + other->Name() + ">",
                       "stands beside the first <robot> and is dropped", "put one robot in one file"});
-      document.DeleteNode(other);
+      drop(*other, "stands beside the first <robot>", ledger);
     }
     other = next;
   }

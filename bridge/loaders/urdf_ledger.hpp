@@ -31,6 +31,23 @@ class Ledger {
   /// of them says how many more there were.
   void alike(Severity severity, const std::string& kind, Finding finding, std::size_t most = 5);
 
+  /// An element of the file, or an attribute of it, that nothing in the model depends on.
+  struct Loss {
+    std::size_t element{0};   ///< its number in the inventory
+    std::string attribute{};  ///< empty: the element with all in it
+    std::string why{};
+  };
+  /// What is taken where the file says nothing.
+  struct Supplied {
+    std::size_t element{0};  ///< where it would stand
+    std::string item{};      ///< "/axis@xyz"
+    std::string why{};       ///< "'1 0 0' is used"
+  };
+  void lose(Loss loss) { losses_.push_back(std::move(loss)); }
+  void supply(Supplied supplied) { supplied_.push_back(std::move(supplied)); }
+  [[nodiscard]] const std::vector<Loss>& losses() const noexcept { return losses_; }
+  [[nodiscard]] const std::vector<Supplied>& supplied() const noexcept { return supplied_; }
+
   [[nodiscard]] bool has_error() const noexcept { return has_error_; }
   /// "file:line"
   [[nodiscard]] std::string place(int line) const;
@@ -52,6 +69,8 @@ class Ledger {
   std::string file_;
   std::vector<Entry> entries_{};
   std::map<std::string, Kind> kinds_{};
+  std::vector<Loss> losses_{};
+  std::vector<Supplied> supplied_{};
   bool has_error_{false};
 };
 

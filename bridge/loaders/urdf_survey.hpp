@@ -1,6 +1,7 @@
 #pragma once
 // The pre-flight over a robot's XML: reads names, lines and numbers of every link and joint, reports all that
 // is wrong at once, and mends in place what urdfdom would refuse or lose although its meaning is clear.
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ namespace pantin::urdf_loader {
 
 /// A <collision> or <visual> that was kept; the same order as in urdfdom's model.
 struct GeometryEntry {
+  std::size_t number{0};  ///< of the element in the inventory
   int line{0};
   std::string name{};      ///< may be empty
   bool is_capsule{false};  ///< urdfdom knows none: it is shown a cylinder of the same radius and length

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <pantin/bridge/loaders/urdf_document.hpp>
+#include <pantin/bridge/loaders/urdf_inventory.hpp>
 #include <pantin/bridge/loaders/urdf_numbers.hpp>
 #include <pantin/bridge/loaders/urdf_survey.hpp>
 
@@ -21,9 +22,11 @@ struct Judge {
   bool drawn_only;
   Ledger& ledger;
   bool usable{true};
+  std::string why{};  ///< it is not kept
 
   void refuse(int line, std::string problem, std::string remedy) {
     usable = false;
+    why = problem;
     if (drawn_only) {
       ledger.warning({line, subject, std::move(problem) + "; dropped", std::move(remedy)});
     } else {
@@ -77,10 +80,11 @@ void judge_shape(XMLElement& shape, Judge& judge) {
 
 /// The one shape of a <geometry>; null with a finding where there is none. Further ones are removed with a
 /// finding.
-XMLElement* only_shape(XMLElement& owner, const Judge& judge) {
+XMLElement* only_shape(XMLElement& owner, Judge& judge) {
   XMLElement* geometry = owner.FirstChildElement("geometry");
   XMLElement* shape = geometry != nullptr ? geometry->FirstChildElement() : nullptr;
   if (shape == nullptr) {
+    judge.why = "has no known geometry";
     judge.ledger.alike(Severity::Warning, "no geometry",
                        {owner.GetLineNum(), judge.subject, "has no known geometry; dropped",
                         "use box, cylinder, sphere, capsule or mesh"});
@@ -90,7 +94,7 @@ XMLElement* only_shape(XMLElement& owner, const Judge& judge) {
     judge.ledger.warning({more->GetLineNum(), judge.subject,
                           std::string{"a second shape, <"} + more->Name() + ">, in one <geometry> is dropped",
                           "write another <" + std::string{owner.Name()} + ">"});
-    geometry->DeleteChild(more);
+    drop(*more, "is a second shape in one <geometry>", judge.ledger);
   }
   return shape;
 }
@@ -104,6 +108,7 @@ bool survey_one(XMLElement& owner, Judge& judge, GeometryEntry& entry) {
   if (!judge.usable) return false;
   const string_view kind = shape->Name();
   if (judge.drawn_only && kind != "mesh") {
+    judge.why = "is only drawn: not needed for physics";
     judge.ledger.alike(Severity::Note, "visual primitive",
                        {owner.GetLineNum(), judge.subject,
                         "<" + std::string{kind} + "> is only drawn: not needed for physics and dropped", ""});
@@ -121,13 +126,19 @@ void survey_geometry(XMLElement& link, bool drawn_only, LinkEntry& entry, Ledger
   for (XMLElement* owner = link.FirstChildElement(tag); owner != nullptr;) {
     XMLElement* next = owner->NextSiblingElement(tag);
     const char* name = owner->Attribute("name");
-    GeometryEntry geometry{.line = owner->GetLineNum(), .name = name != nullptr ? name : ""};
+    GeometryEntry geometry{
+        .number = number_of(*owner), .line = owner->GetLineNum(), .name = name != nullptr ? name : ""};
+    if (name != nullptr && !drawn_only) {
+      ledger.lose({geometry.number, "name", "names of collisions are not kept"});
+      ledger.alike(Severity::Note, "collision name",
+                   {geometry.line, subject_of(link), "names of collisions are not kept", ""});
+    }
     Judge judge{
         .subject = subject_of(link) + ", " + subject_of(*owner), .drawn_only = drawn_only, .ledger = ledger};
     if (survey_one(*owner, judge, geometry)) {
       (drawn_only ? entry.visuals : entry.collisions).push_back(std::move(geometry));
     } else {
-      link.DeleteChild(owner);
+      drop(*owner, judge.why, ledger);
     }
     owner = next;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <pantin/bridge/loaders/urdf_document.hpp>
+#include <pantin/bridge/loaders/urdf_inventory.hpp>
 #include <pantin/bridge/loaders/urdf_numbers.hpp>
 #include <pantin/bridge/loaders/urdf_survey.hpp>
 
@@ -79,7 +80,7 @@ void drop_meaningless(const Context& c, XMLElement& element) {
   const bool harmless = std::string_view{element.Name()} != "mimic";  // who writes a mimic wants motion
   c.alike(harmless ? Severity::Note : Severity::Warning, what, element.GetLineNum(),
           what + " means nothing and is dropped", "");
-  c.joint.DeleteChild(&element);
+  drop(element, what + " means nothing", c.ledger);
 }
 
 void read_axis(const Context& c) {
@@ -88,8 +89,9 @@ void read_axis(const Context& c) {
     if (has_axis(c.entry.type)) {
       c.alike(Severity::Note, "default axis", axis != nullptr ? axis->GetLineNum() : c.entry.line,
               "has no axis: 1 0 0 is used, as URDF says", "");
+      c.ledger.supply({number_of(c.joint), "/axis@xyz", "'1 0 0' is used"});
     }
-    if (axis != nullptr) c.joint.DeleteChild(axis);
+    if (axis != nullptr) drop(*axis, "says nothing", c.ledger);
     return;
   }
   std::array<double, 3> xyz{};
@@ -129,6 +131,7 @@ void read_limit(const Context& c) {
     defaulted = defaulted || !has_attribute(*limit, name);
     if (!has_attribute(*limit, name)) limit->SetAttribute(name, "0");
     c.number(*limit, name);
+    c.ledger.lose({number_of(*limit), name, "limits of effort and velocity are not used"});
   }
   if (!limited && c.entry.type != JointType::Continuous) return drop_meaningless(c, *limit);
   if (defaulted && limited) {
@@ -145,13 +148,15 @@ void read_limit(const Context& c) {
               "lower and upper of a continuous joint mean nothing and are dropped",
               "write type=\"revolute\" to limit it");
     }
-    c.joint.DeleteChild(limit);
+    drop(*limit, "a continuous joint has no limits, and effort and velocity are not used", c.ledger);
   } else if ((lower || !has_lower) && (upper || !has_upper) && lower.value_or(0) > upper.value_or(0)) {
     c.error(line,
             "limit: lower " + number_text(lower.value_or(0)) + " is above upper " +
                 number_text(upper.value_or(0)),
             has_lower && has_upper ? "swap them" : "write both");
   } else if (!has_lower || !has_upper) {
+    if (!has_lower) c.ledger.supply({number_of(*limit), "@lower", "'0' is used"});
+    if (!has_upper) c.ledger.supply({number_of(*limit), "@upper", "'0' is used"});
     c.alike(Severity::Warning, "default limit", line,
             std::string{"limit has no "} +
                 (has_lower   ? "upper"
@@ -178,7 +183,7 @@ void read_dynamics(const Context& c) {
     any = any || has_attribute(*dynamics, name);
   }
   if (!has_axis(c.entry.type)) return drop_meaningless(c, *dynamics);
-  if (!any) c.joint.DeleteChild(dynamics);  // urdfdom refuses an empty one
+  if (!any) drop(*dynamics, "is empty", c.ledger);  // urdfdom refuses such
 }
 
 void read_mimic(const Context& c) {
@@ -206,7 +211,7 @@ void drop_controls(const Context& c) {
     }
     c.alike(Severity::Note, tag, element->GetLineNum(),
             std::string{"<"} + tag + "> is for drivers of real robots and is dropped", "");
-    c.joint.DeleteChild(element);
+    drop(*element, "is for drivers of real robots", c.ledger);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pantin/bridge/loaders/urdf_document.hpp>
+#include <pantin/bridge/loaders/urdf_inventory.hpp>
 
 namespace pantin::urdf_loader {
 namespace {
@@ -89,8 +90,9 @@ void remove_attributes(const Kept& kept, Ledger& ledger) {
   }
   std::string list;
   for (const std::string& name : unknown) {
-    kept.element->DeleteAttribute(name.c_str());
-    if (name.starts_with("xmlns")) continue;  // declares a prefix, says nothing about the robot
+    const bool is_prefix = name.starts_with("xmlns");  // declares one, says nothing about the robot
+    drop_attribute(*kept.element, name, is_prefix ? "declares a prefix of names" : "is unknown", ledger);
+    if (is_prefix) continue;
     list += (list.empty() ? "'" : ", '") + name + '\'';
   }
   if (list.empty()) return;
@@ -100,18 +102,20 @@ void remove_attributes(const Kept& kept, Ledger& ledger) {
                {kept.element->GetLineNum(), kept.subject, problem, "check the spelling"}, 1);
 }
 
-/// Says why the child goes; removing is the caller's.
-void report_removal(const Kept& parent, const XMLElement& child, const Rule* rule, Ledger& ledger) {
+void remove(const Kept& parent, XMLElement& child, const Rule* rule, Ledger& ledger) {
   const std::string name = child.Name();
   const std::string owner = parent.element->Name();
   const int line = child.GetLineNum();
   if (rule != nullptr) {
+    drop(child, "is a second one; the first is used", ledger);
     ledger.warning({line, parent.subject,
                     "a second <" + name + "> in <" + owner + "> is dropped; the first is used", "keep one"});
   } else if (is_well_known(name)) {
+    drop(child, "<" + name + "> is not needed for physics", ledger);
     ledger.alike(Severity::Note, "element " + name,
                  {line, parent.subject, "<" + name + "> is not needed for physics and is dropped", ""});
   } else {
+    drop(child, "<" + name + "> in <" + owner + "> is unknown", ledger);
     ledger.alike(Severity::Warning, "element " + owner + ' ' + name,
                  {line, parent.subject, "<" + name + "> in <" + owner + "> is unknown and dropped",
                   "check its spelling and where it stands"},
@@ -145,8 +149,7 @@ void remove_unknown(XMLElement& robot, Ledger& ledger) {
       const bool again = rule != nullptr && rule->times == Times::Once &&
                          std::find(seen.begin(), seen.end(), rule) != seen.end();
       if (rule == nullptr || again) {
-        report_removal(parent, *child, rule, ledger);
-        parent.element->DeleteChild(child);
+        remove(parent, *child, rule, ledger);
       } else {
         seen.push_back(rule);
         open.push_back({child, rule, parent.rule->parent.empty() ? subject_of(*child) : parent.subject});

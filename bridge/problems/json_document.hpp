@@ -14,6 +14,14 @@ enum class JsonKind { Null, Boolean, Number, Text, Array, Object };
 /// "null", "true or false", "a number", "a text", "a list", "an object".
 [[nodiscard]] std::string_view to_string(JsonKind kind) noexcept;
 
+/// What a reader made of a value.
+enum class JsonUse : char {
+  Unseen,     ///< nobody asked for it
+  Read,       ///< with what it holds, unless that says otherwise
+  NotNeeded,  ///< known, and left out
+  Unknown,    ///< left out, which was told
+};
+
 struct JsonValue {
   JsonKind kind{JsonKind::Null};
   bool boolean{false};
@@ -21,6 +29,7 @@ struct JsonValue {
   std::string text{};
   std::vector<JsonValue> elements{};
   std::vector<std::pair<std::string, JsonValue>> members{};  ///< in the order of the file, keys unique
+  mutable JsonUse use{JsonUse::Unseen};  ///< kept by the reader, and no part of what the value says
 };
 
 /// Deepest nesting that is read; a document of plain data needs less than ten.

@@ -17,11 +17,8 @@ std::string digits(double number) {
 
 ObjectReader::ObjectReader(const JsonValue& value, std::string place, std::string subject,
                            std::vector<Diagnostic>& ledger)
-    : value_{value},
-      place_{std::move(place)},
-      subject_{std::move(subject)},
-      ledger_{ledger},
-      read_(value.members.size(), false) {
+    : value_{value}, place_{std::move(place)}, subject_{std::move(subject)}, ledger_{ledger} {
+  value.use = JsonUse::Read;
   if (value.kind != JsonKind::Object) {
     ledger_.push_back({Severity::Error, place_, subject_,
                        "is " + std::string{to_string(value.kind)} + ", not an object", "write it as {...}"});
@@ -29,8 +26,10 @@ ObjectReader::ObjectReader(const JsonValue& value, std::string place, std::strin
 }
 
 ObjectReader::~ObjectReader() {
-  for (std::size_t i = 0; i < read_.size(); ++i) {
-    if (!read_[i]) note(value_.members[i].first, "the reader does not know this key", "check its spelling");
+  for (const auto& [key, value] : value_.members) {
+    if (value.use != JsonUse::Unseen) continue;
+    value.use = JsonUse::Unknown;
+    warn(key, "the reader does not know this key: dropped", "check its spelling");
   }
 }
 
@@ -47,15 +46,12 @@ void ObjectReader::missing(std::string_view key) {
 }
 
 const JsonValue* ObjectReader::take(std::string_view key, JsonKind kind) {
-  for (std::size_t i = 0; i < read_.size(); ++i) {
-    if (value_.members[i].first != key) continue;
-    read_[i] = true;
-    const JsonValue& found = value_.members[i].second;
-    if (found.kind == kind) return &found;
-    error(key, "is " + std::string{to_string(found.kind)} + ", not " + std::string{to_string(kind)},
-          "mend it");
-    return nullptr;
-  }
+  const JsonValue* found = find(key);
+  if (found == nullptr) return nullptr;
+  found->use = JsonUse::Read;
+  if (found->kind == kind) return found;
+  error(key, "is " + std::string{to_string(found->kind)} + ", not " + std::string{to_string(kind)},
+        "mend it");
   return nullptr;
 }
 
@@ -180,20 +176,22 @@ const std::vector<JsonValue>& ObjectReader::list(std::string_view key) {
 const JsonValue* ObjectReader::object_if(std::string_view key) { return take(key, JsonKind::Object); }
 
 void ObjectReader::skip(std::initializer_list<std::string_view> keys) {
-  for (std::size_t i = 0; i < read_.size(); ++i) {
-    if (std::find(keys.begin(), keys.end(), value_.members[i].first) != keys.end()) read_[i] = true;
+  for (const std::string_view key : keys) {
+    if (const JsonValue* found = find(key)) found->use = JsonUse::NotNeeded;
   }
 }
 
-void ObjectReader::skip_all() { std::fill(read_.begin(), read_.end(), true); }
+void ObjectReader::skip_all() {
+  for (const auto& [key, value] : value_.members) value.use = JsonUse::NotNeeded;
+}
 
 void ObjectReader::error(std::string_view key, std::string problem, std::string remedy) const {
   ledger_.push_back({Severity::Error, place(key), subject_,
                      "'" + std::string{key} + "' " + std::move(problem), std::move(remedy)});
 }
 
-void ObjectReader::note(std::string_view key, std::string problem, std::string remedy) const {
-  ledger_.push_back({Severity::Note, place(key), subject_,
+void ObjectReader::warn(std::string_view key, std::string problem, std::string remedy) const {
+  ledger_.push_back({Severity::Warning, place(key), subject_,
                      "'" + std::string{key} + "': " + std::move(problem), std::move(remedy)});
 }
 

@@ -20,7 +20,7 @@ class ObjectReader {
   /// errors. `place` is file#/pointer, `subject` who the object is in messages.
   ObjectReader(const JsonValue& value, std::string place, std::string subject,
                std::vector<Diagnostic>& ledger);
-  /// Notes the keys that nobody asked for.
+  /// Warns of the keys that nobody asked for.
   ~ObjectReader();
   ObjectReader(const ObjectReader&) = delete;
   ObjectReader& operator=(const ObjectReader&) = delete;
@@ -52,7 +52,7 @@ class ObjectReader {
   [[nodiscard]] const JsonValue& value() const { return value_; }
   [[nodiscard]] std::string place(std::string_view key) const { return place_ + '/' + pointer_token(key); }
   void error(std::string_view key, std::string problem, std::string remedy) const;
-  void note(std::string_view key, std::string problem, std::string remedy) const;
+  void warn(std::string_view key, std::string problem, std::string remedy) const;
 
  private:
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
@@ -66,7 +66,6 @@ class ObjectReader {
   const JsonValue& value_;
   std::string place_, subject_;
   std::vector<Diagnostic>& ledger_;
-  std::vector<bool> read_;
 };
 
 /// The 'type' of an object; nothing, and an error, where it has none or it is no text.

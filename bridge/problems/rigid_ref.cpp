@@ -3,6 +3,7 @@
 #include <pantin/bridge/input_file.hpp>
 
 #include "object_reader.hpp"
+#include "problem_account.hpp"
 #include "rigid_ref_parts.hpp"
 
 namespace pantin {
@@ -61,7 +62,7 @@ Problem read_problem(const JsonValue& root, const std::string& file, std::vector
 }  // namespace
 }  // namespace reference
 
-Loaded<ReferenceProblem> parse_rigid_ref(std::string_view text, std::string file) {
+Loaded<ReferenceProblem> parse_rigid_ref(std::string_view text, std::string file, Account* account) {
   Loaded<reference::JsonValue> document = reference::parse_json(text, file);
   if (!document.value) return {{}, std::move(document.notes)};
   std::vector<Diagnostic> ledger = std::move(document.notes);
@@ -71,13 +72,14 @@ Loaded<ReferenceProblem> parse_rigid_ref(std::string_view text, std::string file
     for (Diagnostic& finding : findings_in(problem)) ledger.push_back(std::move(finding));
   }
   if (has_error(ledger)) return {{}, std::move(ledger)};
+  reference::settle(*document.value, problem.file, ledger, account);
   return {std::move(problem), std::move(ledger)};
 }
 
-Loaded<ReferenceProblem> load_rigid_ref(const std::filesystem::path& file) {
+Loaded<ReferenceProblem> load_rigid_ref(const std::filesystem::path& file, Account* account) {
   Loaded<std::string> text = read_file(file, reference::kMaxBytes);
   if (!text.value) return {{}, std::move(text.notes)};
-  return parse_rigid_ref(*text.value, file.string());
+  return parse_rigid_ref(*text.value, file.string(), account);
 }
 
 }  // namespace pantin

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <pantin/bridge/account.hpp>
 #include <pantin/bridge/diagnostic.hpp>
 #include <pantin/bridge/problems/reference_problem.hpp>
 #include <pantin/physics/physics_manager.hpp>
@@ -16,11 +17,14 @@ namespace pantin {
 /// keys, wrong types, numbers that are not finite or out of range, axes and quaternions that are not unit,
 /// inertia that no body has, names that are unknown or used twice, data that contradict each other, types
 /// that the schema's reader does not know. Velocities that a joint does not allow are a warning, keys that it
-/// does not know a note. Never throws.
-[[nodiscard]] Loaded<ReferenceProblem> load_rigid_ref(const std::filesystem::path& file);
+/// does not know too; keys for people are a note. `account`, which may be null, gets an entry for every
+/// value. Never throws.
+[[nodiscard]] Loaded<ReferenceProblem> load_rigid_ref(const std::filesystem::path& file,
+                                                      Account* account = nullptr);
 
 /// The same from text; `file` is what the messages call it.
-[[nodiscard]] Loaded<ReferenceProblem> parse_rigid_ref(std::string_view text, std::string file);
+[[nodiscard]] Loaded<ReferenceProblem> parse_rigid_ref(std::string_view text, std::string file,
+                                                       Account* account = nullptr);
 
 /// What is wrong with a problem as a value: everything but the JSON of the list above. Places are JSON
 /// pointers.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pantin/bridge/account.hpp>
 #include <pantin/bridge/diagnostic.hpp>
 #include <pantin/bridge/writers/json_stream.hpp>
 
@@ -18,10 +19,17 @@ struct CheckedFile {
   std::string file{};  ///< as it was named
   bool ok{false};
   std::vector<Diagnostic> ledger{};
+  Account account{};  ///< of every element and attribute; empty where it cannot be used
 };
 
-/// [{"file", "ok", "ledger"}, ...]
-void write_check_json(std::ostream& out, std::span<const CheckedFile> files);
+/// How much of an account is written.
+enum class AccountDetail {
+  Counts,  ///< {"read", "converted", "defaulted", "dropped"}
+  Every,   ///< these, and every entry
+};
+
+/// [{"file", "ok", "ledger", "counts", "account"}, ...]; `account` only where all of it is asked for.
+void write_check_json(std::ostream& out, std::span<const CheckedFile> files, AccountDetail detail);
 
 /// {"ledger"}: what a command has to say that came to nothing else.
 void write_failure_json(std::ostream& out, std::span<const Diagnostic> ledger);

@@ -73,16 +73,16 @@ TEST(RigidRef, TakesAFileWhoseSamplesCarryOnlyTimes) {
   EXPECT_TRUE(instantiate(*read.value, physics).value.has_value());
 }
 
-TEST(RigidRef, NotesKeysThatItDoesNotKnow) {
-  // The key is extra: the file is still good, and the note says where it stands.
+TEST(RigidRef, WarnsOfKeysThatItDoesNotKnow) {
+  // The key is extra: the file is still good, and the warning says where it stands.
   json problem = good();
   problem["bodies"][1]["colour/tint"] = "red";
   const Loaded<ReferenceProblem> read = parse_rigid_ref(problem.dump(), "f");
   EXPECT_TRUE(read.value.has_value());
-  EXPECT_EQ(lines(read.notes),
-            "f#/bodies/1/colour~1tint: note: body 'bob': 'colour/tint': the reader does not know this key; "
-            "check its "
-            "spelling\n");
+  EXPECT_EQ(
+      lines(read.notes),
+      "f#/bodies/1/colour~1tint: warning: body 'bob': 'colour/tint': the reader does not know this key: "
+      "dropped; check its spelling\n");
 }
 
 TEST(RigidRef, WarnsOfVelocitiesThatAJointDoesNotAllow) {

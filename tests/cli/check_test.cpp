@@ -83,6 +83,62 @@ TEST(Check, OutlivesAParserThatCrashes) {
   EXPECT_EQ(checked[1]["ok"], true);
 }
 
+TEST(Check, SurvivesAMeshThatCrashesItsParser) {
+  // A robot that names such a file loses the mesh with a warning: it too is parsed by the helper alone.
+  const TemporaryFolder folder;
+  std::string text = content_of(PANTIN_SOURCE_DIR "/assets/meshes/crane.dae");
+  folder.write("bad.dae", replaced(text, "<float_array id=\"wedge-p-array\" count=\"12",
+                                   "<float_array id=\"wedge-p-array\" count=\"-1"));
+  const std::string robot = folder.write("robot.urdf", R"(<robot name="r"><link name="a"><collision><geometry>
+<mesh filename="bad.dae"/></geometry></collision></link></robot>)");
+  const Ran ran = pantin({"check", "--json", robot});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const Json checked = ran.json()[0];
+  EXPECT_NE(checked["ledger"].dump().find("its parser crashed: SIG"), std::string::npos) << checked;
+  EXPECT_EQ(checked["counts"]["dropped"], 4);  // collision, geometry, mesh and its file name
+}
+
+TEST(Check, CountsWhatBecameOfEverything) {
+  // Six elements and seven attributes, counted by hand; an unknown one more is dropped, and is an error under
+  // --strict. All are listed where that is asked for.
+  const TemporaryFolder folder;
+  const std::string good =
+      folder.write("good.urdf",
+                   "<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n"
+                   "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>");
+  const std::string odd =
+      folder.write("odd.urdf", replaced(content_of(good), "<link name='b'/>", "<link name='b' zorp='1'/>"));
+  const Json counts = pantin({"check", "--json", good, odd}).json();
+  EXPECT_EQ(counts[0]["counts"]["read"], 13);
+  EXPECT_EQ(counts[0]["counts"]["dropped"], 0);
+  EXPECT_EQ(counts[1]["counts"]["dropped"], 1);
+  EXPECT_FALSE(counts[0].contains("account"));
+  EXPECT_EQ(pantin({"check", "--json", "--verbose", good}).json()[0]["account"].size(), 13u);
+  EXPECT_EQ(pantin({"check", "--strict", odd}).code, 1);
+  const std::string all = pantin({"check", "--verbose", odd}).out;
+  EXPECT_NE(all.find("14 elements and attributes: 13 read, 1 dropped\n"), std::string::npos) << all;
+  EXPECT_NE(all.find("odd.urdf:3: dropped: link 'b': link@zorp: is unknown\n"), std::string::npos) << all;
+}
+
+TEST(Check, TakesProblems) {
+  // The same for a problem: a planted key is a warning, and an error under --strict; `solve` says it too.
+  const TemporaryFolder folder;
+  Json problem = Json::parse(content_of(PANTIN_SOURCE_DIR "/assets/problems/welded_pendulum.json"));
+  problem["bodies"][0]["zorp"] = 1;
+  const std::string file = folder.write("p.json", problem.dump(1));
+  const Ran lenient = pantin({"check", "--json", "--verbose", file});
+  EXPECT_EQ(lenient.code, 0) << lenient.err;
+  std::size_t found = 0;
+  const Json checked = lenient.json();
+  for (const Json& entry : checked[0]["account"])
+    found += entry["place"] == file + "#/bodies/0/zorp" && entry["fate"] == "dropped" ? 1 : 0;
+  EXPECT_EQ(found, 1u);
+  EXPECT_EQ(pantin({"check", "--strict", file}).code, 1);
+  EXPECT_NE(pantin({"solve", "--json", file}).out.find("'zorp': the reader does not know this key"),
+            std::string::npos);
+  EXPECT_EQ(pantin({"solve", "--strict", file}).code, 1);
+}
+
 TEST(Usage, AnswersHelpAndVersion) {
   // Answers go to standard output and are no errors.
   const Ran version = pantin({"--version"});

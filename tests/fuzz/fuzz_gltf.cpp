@@ -6,7 +6,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const pantin::test::MemoryFile file{data, size};
-  const auto loaded = pantin::load_gltf(file.path());
+  pantin::Account account;
+  const auto loaded = pantin::load_gltf(file.path(), {.account = &account});
   if (!pantin::test::problem_with_ledger(loaded.value.has_value(), loaded.notes, file.path()).empty())
     std::abort();
   if (loaded.value && !pantin::test::use(*loaded.value).empty()) std::abort();

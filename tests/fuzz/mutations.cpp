@@ -50,19 +50,27 @@ struct Outcome {
 
 Outcome load_one(const fs::path& file) {
   // Processes are cut off well before what counts as a hang.
-  const pantin::Loaded<pantin::Model> loaded = pantin::load_model(
-      file, {.package_paths = {PANTIN_SOURCE_DIR "/assets"}, .import = {.cpu_s = 1, .wall_s = 0.6 * kHang}});
+  pantin::Account account;
+  const pantin::Loaded<pantin::Model> loaded =
+      pantin::load_model(file, {.package_paths = {PANTIN_SOURCE_DIR "/assets"},
+                                .import = {.cpu_s = 1, .wall_s = 0.6 * kHang},
+                                .account = &account});
   Outcome outcome{loaded.value.has_value(),
                   pantin::test::problem_with_ledger(loaded.value.has_value(), loaded.notes, file.string())};
+  if (account.empty() == outcome.loaded)
+    outcome.problem += outcome.loaded ? "no account" : "an account of nothing";
   if (outcome.problem.empty() && loaded.value) outcome.problem = pantin::test::use(*loaded.value);
   return outcome;
 }
 
 Outcome load_problem([[maybe_unused]] const fs::path& file) {
 #ifdef PANTIN_HAS_PROBLEMS
-  const auto loaded = pantin::load_rigid_ref(file);
+  pantin::Account account;
+  const auto loaded = pantin::load_rigid_ref(file, &account);
   Outcome outcome{loaded.value.has_value(),
                   pantin::test::problem_with_ledger(loaded.value.has_value(), loaded.notes, file.string())};
+  if (account.empty() == outcome.loaded)
+    outcome.problem += outcome.loaded ? "no account" : "an account of nothing";
   if (outcome.problem.empty() && loaded.value) {
     pantin::PhysicsManager physics;
     (void)pantin::instantiate(*loaded.value, physics);

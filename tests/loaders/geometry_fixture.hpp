@@ -13,8 +13,9 @@ namespace pantin::test {
 
 class LoadGeometry : public testing::Test {
  protected:
-  Loaded<Model> load(const std::string& name, const std::string& content) const {
-    return load_geometry(folder_.write(name, content));
+  Loaded<Model> load(const std::string& name, const std::string& content,
+                     const LoadOptions& options = {}) const {
+    return load_geometry(folder_.write(name, content), options);
   }
   Model model(const std::string& name, const std::string& content) const {
     Loaded<Model> loaded = load(name, content);

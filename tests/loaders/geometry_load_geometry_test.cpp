@@ -132,6 +132,24 @@ TEST_F(LoadGeometry, MakesANodeOfEachObject) {
   EXPECT_EQ(two.nodes[2].meshes.at(0).mesh->vertices.size(), 3u);
 }
 
+TEST_F(LoadGeometry, AccountsForWhatItReadsAndLeavesOut) {
+  // Three vertices and a triangle are in the model; a statement that nobody knows, a normal and a group
+  // without faces are not, each with its line.
+  Account account;
+  const Loaded<Model> loaded =
+      load("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\ng nothing\ng all\nf 1 2 3\nzorp 1\n",
+           {.account = &account});
+  ASSERT_TRUE(loaded.value.has_value());
+  std::string told;
+  for (const AccountEntry& e : account)
+    told += std::string{to_string(e.fate)} + ' ' + std::to_string(e.count) + ' ' + e.item + ' ' +
+            std::filesystem::path{e.place}.filename().string() + '\n';
+  EXPECT_EQ(told,
+            "read 3 vertices a.obj\nread 1 triangles a.obj\n"
+            "dropped 1 groups without triangles a.obj:5\ndropped 1 normals a.obj:4\n"
+            "dropped 1 statements 'zorp' a.obj:8\n");
+}
+
 TEST_F(LoadGeometry, ListsWhatItLeavesOut) {
   // What physics does not need is a note, what is lost a warning, each with its number.
   const Loaded<Model> loaded =
@@ -147,7 +165,8 @@ TEST_F(LoadGeometry, ListsWhatItLeavesOut) {
       "groups, "
       "2 texture coordinates, 1 triangles with two equal corners, 1 uses of materials, 1 vertices without "
       "triangle, 1 weights or colours of vertices");
-  EXPECT_EQ(notes[3], "warning: file: dropped: 2 points or lines, 1 statements 'curv'");
+  EXPECT_EQ(notes[3],
+            "warning: file: dropped: 2 points or lines (first in line 12), 1 statements 'curv' (line 14)");
 }
 
 TEST_F(LoadGeometry, NamesDamageOfObj) {

@@ -23,7 +23,8 @@ TEST(GltfInventory, CountsEachKindThatIsLeftOut) {
                 "model.gltf#/samplers: note: samplers: " + looks + "\n" +
                 "model.gltf#/cameras: note: cameras: " + looks + " (2 times, first here)\n" +
                 "model.gltf#/skins: warning: skins: not loaded: skinned meshes keep the shape they have "
-                "in the file\n");
+                "in the file\n" +
+                "model.gltf: note: file: not needed for physics and dropped: 1 'camera', 1 'skin'\n");
 }
 
 TEST(GltfInventory, CountsVertexDataAndMorphTargets) {

@@ -87,7 +87,8 @@ TEST(GltfNodes, ComeFromTheDefaultScene) {
   EXPECT_EQ(names_of(loaded.value.value()), "b<-1 ");
   EXPECT_EQ(ledger(loaded),
             "model.gltf#/scenes/1: note: scenes: of 2 scenes the default one, scene 1 'main', is loaded\n"
-            "model.gltf#/nodes/0: note: nodes: not in the scene: not loaded; add them to the scene\n");
+            "model.gltf#/nodes/0: note: nodes: not in the scene: not loaded; add them to the scene\n"
+            "model.gltf: note: file: not needed for physics and dropped: 1 'name'\n");
 }
 
 TEST(GltfNodes, ComeFromTheFirstSceneWithoutADefault) {
