@@ -40,6 +40,7 @@ StepReport PhysicsManager::step(double h) {
 
   StepReport report;
   world.dynamics.evaluations = 0;
+  world.dynamics.loop_margin = 1;
   world.inner = {};
   world.motion.clear();
   world.motion_topology = state.topology;
@@ -67,6 +68,7 @@ StepReport PhysicsManager::step(double h) {
   world.list_moved();
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
+  report.loop_margin = world.dynamics.loop_margin;
   report.inner_steps = world.inner.accepted;
   report.refused_steps = world.inner.refused;
   report.shortest_step = world.inner.shortest;

@@ -77,6 +77,7 @@ class WorldDynamics final : public Dynamics {
   /// What stages are computed in; they are computed one after the other where this is off.
   bool uses_lanes{true};
   int evaluations{0};           ///< of v' since it was last set to 0
+  double loop_margin{1};        ///< least ClosureSolver::margin since it was last set to 1
   WrenchSource* also{nullptr};  ///< asked after the force laws; not owned
 
  private:
