@@ -12,6 +12,17 @@ namespace {
 
 constexpr double kSlack = 1e-9;  // of a step: what counts as the same time
 
+void count(AdvanceReport& report, double h) {
+  ++report.updates;
+  report.longest_update = std::max(report.longest_update, h);
+  report.evaluations += report.last.evaluations;
+  if (report.last.inner_steps == 0) return;
+  const bool first = report.inner_steps == 0;
+  report.inner_steps += report.last.inner_steps;
+  report.shortest_step =
+      first ? report.last.shortest_step : std::min(report.shortest_step, report.last.shortest_step);
+}
+
 }  // namespace
 
 void Bridge::schedule(const Toggle& toggle) {
@@ -54,7 +65,7 @@ AdvanceReport Bridge::Impl::run_due() {
   fire_toggles(report.notes);
   notice_moves();
   if (clock.next()) start_moves(physics.time(), clock.due_until());
-  while (const std::optional<double> end = clock.next()) {
+  while (const std::optional<double> end = next_update()) {
     const double h = *end - physics.time();
     if (h > 0) report.last = physics.step(h);
     if (!report.last.ok()) {
@@ -65,8 +76,7 @@ AdvanceReport Bridge::Impl::run_due() {
       break;
     }
     clock.reached(*end);
-    ++report.updates;
-    report.evaluations += report.last.evaluations;
+    count(report, h);
     if (toggle_is_due()) {
       write_scene(&report.notes);
       fire_toggles(report.notes);
@@ -78,6 +88,12 @@ AdvanceReport Bridge::Impl::run_due() {
   report.time = physics.time();
   report.events = std::exchange(passed, {});
   return report;
+}
+
+std::optional<double> Bridge::Impl::next_update() const {
+  const bool strides = clock.settings().stepping == Stepping::Adaptive &&
+                       std::isfinite(physics.integrator().tolerance()) && physics.particles().size() == 0;
+  return strides ? clock.next_stop() : clock.next();
 }
 
 bool Bridge::Impl::toggle_is_due() const {

@@ -163,6 +163,7 @@ const Player& Bridge::player() const noexcept { return impl_->player; }
 double Bridge::time() const noexcept { return impl_->physics.time(); }
 const Clock& Bridge::clock() const noexcept { return impl_->clock; }
 void Bridge::set_step(double step) { impl_->clock.set_step(step); }
+void Bridge::set_stepping(Stepping stepping) { impl_->clock.set_stepping(stepping); }
 void Bridge::sync_out() { impl_->sync_out(nullptr); }
 
 }  // namespace pantin

@@ -88,6 +88,9 @@ struct Toggle {
 
 struct AdvanceReport {
   int updates{0};               ///< physics steps taken
+  double longest_update{0};     ///< [s]; more than the clock's step where stepping is adaptive
+  int inner_steps{0};           ///< that an integrator which chooses its steps took inside
+  double shortest_step{0};      ///< of these [s]
   std::int64_t evaluations{0};  ///< of the derivative, in all of them
   double time{0};               ///< physics time reached [s]
   double dropped{0};            ///< elapsed time thrown away by the cap on updates [s]
@@ -188,6 +191,7 @@ class Bridge {
   [[nodiscard]] double time() const noexcept;  ///< physics time [s]
   [[nodiscard]] const Clock& clock() const noexcept;
   void set_step(double step);  ///< [s], > 0
+  void set_stepping(Stepping stepping);
   /// Writes the matrices of all simulated nodes from their bodies; done by advance. Idempotent.
   void sync_out();
   /// World matrix between the last two body poses, alpha in [0, 1] (clock().rest() / step); never stored.

@@ -161,6 +161,7 @@ struct Bridge::Impl {
   // Time (advance.cpp)
   void meet_physics_time();
   AdvanceReport run_due();
+  [[nodiscard]] std::optional<double> next_update() const;
   [[nodiscard]] bool toggle_is_due() const;
   void fire_toggles(std::vector<Diagnostic>& notes);
 

@@ -93,6 +93,11 @@ std::optional<double> Clock::next() const {
   return end;
 }
 
+std::optional<double> Clock::next_stop() const {
+  if (!next()) return std::nullopt;
+  return landings_.empty() ? due_until_ : std::min(due_until_, landings_.front());
+}
+
 void Clock::reached(double time) {
   const double slack = kSlack * settings_.step;
   time_ = time;

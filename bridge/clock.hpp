@@ -1,6 +1,7 @@
 #pragma once
 // Turns elapsed time into physics updates: a constant step with the unused rest carried over, a cap on
 // updates, and times on which an update has to land. Time is a count times the step, so it does not drift.
+// Where the integrator chooses its steps, several steps that are due may go as one update.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,9 +10,19 @@
 
 namespace pantin {
 
+/// How far an update goes.
+enum class Stepping : std::uint8_t {
+  Fixed,     ///< one step
+  Adaptive,  ///< all steps that are due up to the next landing: the integrator cuts them as its tolerance
+             ///< needs
+};
+
 struct ClockSettings {
   double step{1.0 / 240};  ///< [s], > 0
-  int max_updates{1000};   ///< of one advance, >= 1; what does not fit is dropped and reported
+  int max_updates{1000};   ///< steps of one advance, >= 1; what does not fit is dropped and reported
+  /// Adaptive counts only while the integrator keeps to a tolerance (Integrator::tolerance) and there are no
+  /// particles, which meet deflectors update by update.
+  Stepping stepping{Stepping::Fixed};
 };
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const ClockSettings& settings);
 
@@ -20,7 +31,8 @@ class Clock {
   explicit Clock(ClockSettings settings = {}, double start = 0);
 
   [[nodiscard]] const ClockSettings& settings() const noexcept { return settings_; }
-  void set_step(double step);                                   ///< counts afresh from the present time
+  void set_step(double step);  ///< counts afresh from the present time
+  void set_stepping(Stepping stepping) noexcept { settings_.stepping = stepping; }
   [[nodiscard]] double time() const noexcept { return time_; }  ///< reached by updates [s]
   [[nodiscard]] double rest() const noexcept;                   ///< elapsed but not yet due [s], < step
   [[nodiscard]] double due_until() const noexcept { return due_until_; }  ///< where the due updates end [s]
@@ -35,7 +47,9 @@ class Clock {
   /// The end of the next due update: the next count of the step, or an earlier landing; nothing when none is
   /// due.
   [[nodiscard]] std::optional<double> next() const;
-  /// Says that physics has reached `time`, the value of next().
+  /// The end of everything that is due, or an earlier landing; nothing when nothing is due.
+  [[nodiscard]] std::optional<double> next_stop() const;
+  /// Says that physics has reached `time`, the value of next() or next_stop().
   void reached(double time);
   /// An update has to end at this time (toggle, sample); ignored if it is not ahead.
   void land_on(double time);

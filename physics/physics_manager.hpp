@@ -124,6 +124,16 @@ class PhysicsManager {
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
   [[nodiscard]] Energy energy() const;
 
+  // Dense output
+  /// Whether steps keep the motion inside them for motion_at. Costs memory, and with an integrator that has
+  /// no interpolant of its own two evaluations a step. Off unless set.
+  void keep_motion(bool keep);
+  /// All bodies at a time inside the last step, in the order of bodies(), from the interpolant of the
+  /// integrator: of order four for dormand-prince, one more than the stages for gauss and radau, a cubic
+  /// between the ends of a step for others. Impulses that acted at the end of the step are not in it. The
+  /// step must have gone well, and the same bodies, joints and kinds still be there.
+  [[nodiscard]] std::vector<BodyKinematics> motion_at(double t);
+
   /// Everything integrated, as a value. Restoring continues bit for bit; bodies, joints, kinds, particle
   /// systems and emitters must be the same as when it was taken.
   [[nodiscard]] State snapshot();

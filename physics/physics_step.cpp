@@ -40,7 +40,10 @@ StepReport PhysicsManager::step(double h) {
 
   StepReport report;
   world.dynamics.evaluations = 0;
+  world.dynamics.loop_margin = 1;
   world.inner = {};
+  world.motion.clear();
+  world.motion_topology = state.topology;
   for (bool done = false; !done; ++report.updates) {
     const double stop = world.next_break(state.time);
     done = !(stop < end - slack);
@@ -49,6 +52,7 @@ StepReport PhysicsManager::step(double h) {
     if (!world.update(part)) {
       report = world.failure();
       if (keeps) world.go_back(cut);
+      world.motion.clear();
       return report;
     }
     state.at_break = stop < end + slack;
@@ -64,6 +68,7 @@ StepReport PhysicsManager::step(double h) {
   world.list_moved();
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
+  report.loop_margin = world.dynamics.loop_margin;
   report.inner_steps = world.inner.accepted;
   report.refused_steps = world.inner.refused;
   report.shortest_step = world.inner.shortest;
@@ -125,10 +130,10 @@ bool PhysicsManager::Impl::update(double h) {
   StepControl* control = integrator->control();
   if (control != nullptr) std::swap(control->memory, bodies.state.memory);
   if (Dynamics* both = particles.begin_update()) {
-    integrator->step(*both, t, h, particles.coordinates_now(), particles.velocities_now());
+    integrate(*both, h, particles.coordinates_now(), particles.velocities_now());
     particles.bodies_have_moved();
   } else {
-    integrator->step(dynamics, t, h, dynamics.coordinates_now(), dynamics.velocities_now());
+    integrate(dynamics, h, dynamics.coordinates_now(), dynamics.velocities_now());
   }
   if (control != nullptr) note_control(*control);
   if (dynamics.first_not_finite() >= 0 || dynamics.open_loop().joint >= 0) {

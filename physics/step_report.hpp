@@ -51,8 +51,11 @@ struct StepReport {
   int inner_steps{0};       ///< that an adaptive integrator took inside; 0 of others
   int refused_steps{0};     ///< that it took back for missing its tolerance
   double shortest_step{0};  ///< that it accepted [s]
-  std::size_t moved{0};     ///< bodies with a changed pose
-  Energy energy{};          ///< of bodies, at the end
+  /// How near closed loops came to a singular position, as where bars are in line, at any evaluation: about
+  /// the square of the angle that is left; 1 = far away, or no loops.
+  double loop_margin{1};
+  std::size_t moved{0};  ///< bodies with a changed pose
+  Energy energy{};       ///< of bodies, at the end
   ParticleReport particles{};
   BodyId body{};          ///< culprit of a failed step, if it is one body
   ParticleId particle{};  ///< the same, if it is a particle

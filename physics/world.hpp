@@ -25,7 +25,11 @@ struct PhysicsManager::Impl {
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
-  State before{};       ///< to go back to, where a part of a step may fail after others are done
+  bool keeps_motion{false};
+  MotionRecord motion{};             ///< inside the last step, where it is kept
+  std::uint64_t motion_topology{0};  ///< that it was recorded with
+  std::vector<double> start{};       ///< work space: q and v at the begin of an update
+  State before{};                    ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).
   void remember(bool with_particles);
@@ -33,6 +37,7 @@ struct PhysicsManager::Impl {
   [[nodiscard]] double next_break(double t) const;
   void pass_break();
   [[nodiscard]] bool update(double h);
+  void integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v);
   void note_control(StepControl& control);
   void apply_impulses();
   void list_moved();

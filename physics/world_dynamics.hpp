@@ -48,6 +48,9 @@ class WorldDynamics final : public Dynamics {
   /// external wrenches that act.
   void accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
                          std::vector<Vector3>& a_cm);
+  /// All bodies where q and v put them.
+  [[nodiscard]] const std::vector<BodyKinematics>& kinematics_at(Instant at, std::span<const double> q,
+                                                                 std::span<const double> v);
   /// Of a closure, as accelerations_now has left it.
   [[nodiscard]] CutWrench cut_wrench(std::uint32_t closure) const;
 
@@ -74,6 +77,7 @@ class WorldDynamics final : public Dynamics {
   /// What stages are computed in; they are computed one after the other where this is off.
   bool uses_lanes{true};
   int evaluations{0};           ///< of v' since it was last set to 0
+  double loop_margin{1};        ///< least ClosureSolver::margin since it was last set to 1
   WrenchSource* also{nullptr};  ///< asked after the force laws; not owned
 
  private:

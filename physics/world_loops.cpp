@@ -1,4 +1,6 @@
 // What closed loops of joints add to the dynamics of trees.
+#include <algorithm>
+
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
@@ -9,6 +11,7 @@ void WorldDynamics::evaluate_loops(Instant at, const Tree& tree, std::span<doubl
   ClosureSolver& solver = constraints_.loops().solver();
   solver.measure(layout, tree, kernel, grounds_, at);
   solver.factor(layout, tree, kernel);
+  loop_margin = std::min(loop_margin, solver.margin(tree));
   solver.solve(layout, tree, ClosureLevel::Acceleration, kernel);
   kernel.substitute(layout, tree, v_dot);
 }

@@ -65,6 +65,9 @@ void add_time(CLI::App& app, RunOptions& options) {
               "Error that dormand-prince, gauss8, gauss16 or radau may make a second [m] and [rad], "
               "default 1e-9")
       ->type_name("TOL");
+  app.add_flag("--adaptive", options.adaptive,
+               "Go from sample to sample in one update, which such an integrator cuts as the motion needs; "
+               "--step then counts for scheduling alone");
 }
 
 void add_world(CLI::App& app, RunOptions& options) {
@@ -112,6 +115,10 @@ void add_run_command(CLI::App& program, Command& chosen) {
       throw CLI::ValidationError(
           "--tolerance",
           "only dormand-prince, gauss8, gauss16 and radau have a tolerance, not " + options->integrator);
+    if (options->adaptive && make_integrator(options->integrator, options->tolerance) == nullptr)
+      throw CLI::ValidationError(
+          "--adaptive",
+          "needs --integrator dormand-prince, gauss8, gauss16 or radau, not " + options->integrator);
     chosen = [options] { return run(*options); };
   });
 }

@@ -22,6 +22,7 @@ struct RunOptions {
   double step{1.0 / 240};            ///< [s], > 0
   double every{1.0 / 60};            ///< [s], > 0
   double tolerance{1e-9};            ///< of integrators that choose their steps [m/s] and [rad/s], > 0
+  bool adaptive{false};              ///< updates as long as samples and toggles let them be
   std::string integrator{"rk4"};     ///< a name that make_integrator knows
   std::optional<UpAxis> up{};        ///< nothing = the first model's
   std::optional<Vector3> gravity{};  ///< [m/s^2]; nothing = 9.81 against the up axis

@@ -43,7 +43,9 @@ void note_what_is_left_out(const PlacedModel& placed, Ledger& ledger) {
 
 ClockSettings RunWorld::clock_of(const RunOptions& options) {
   // Nobody waits for a frame here, so no update is ever dropped.
-  return {.step = options.step, .max_updates = std::numeric_limits<int>::max()};
+  return {.step = options.step,
+          .max_updates = std::numeric_limits<int>::max(),
+          .stepping = options.adaptive ? Stepping::Adaptive : Stepping::Fixed};
 }
 
 Affine rotation_between(UpAxis from, UpAxis to) {

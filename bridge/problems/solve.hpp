@@ -52,14 +52,17 @@ struct SolveResult {
   double joint_drift{0};  ///< greatest distance by which bodies miss their joints [m]
   long steps{0};          ///< that the integrator took
   long evaluations{0};    ///< of the derivative
-  double cpu_seconds{0};  ///< of the stepping, least of the repeats
+  double cpu_seconds{0};  ///< of the stepping, least of the repeats, and of a run that was thrown away
+  double loop_margin{1};  ///< least StepReport::loop_margin
   std::vector<IslandChoice> islands{};
   std::vector<std::string> messages{};
   std::vector<SolvedState> states{};  ///< at every sample time; at the end where there is no sample
 };
 
-/// Builds the problem and runs it over its samples. Where `auto` fails at the tolerance, as near singular
-/// positions of loops it may, it is tried at stricter ones, and a message says so.
+/// Builds the problem and runs it over its samples. `auto` integrates loops like trees; where they come near
+/// singular positions the run is thrown away and dormand-prince takes short steps instead. Where `auto` fails
+/// at the tolerance, as near singular positions of loops it may, it is tried at stricter ones, and a message
+/// says so.
 [[nodiscard]] SolveResult solve(const ReferenceProblem& problem, const SolveSettings& settings);
 
 }  // namespace pantin

@@ -132,12 +132,9 @@ std::vector<IslandChoice> choose_solvers(const ReferenceProblem& problem, double
   std::vector<IslandChoice> choices;
   Islands islands{problem};
   for (Islands::Island& island : islands.list()) {
-    IslandChoice choice{.bodies = std::move(island.names)};
-    if (island.has_loop) {
-      choice.solver = "dormand-prince";
-      choice.reason = "closed loops may pass singular positions, where short steps keep to their branch";
-    } else if (const double decay = fastest_decay(problem, choice.bodies);
-               decay * problem.duration > kManyDecayTimes) {
+    IslandChoice choice{.bodies = std::move(island.names), .has_loop = island.has_loop};
+    if (const double decay = fastest_decay(problem, choice.bodies);
+        decay * problem.duration > kManyDecayTimes) {
       choice.solver = "radau";
       choice.reason =
           "motion that decays at up to " + text_of(decay) + " /s, far faster than the problem lasts";

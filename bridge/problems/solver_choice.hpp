@@ -10,6 +10,7 @@ namespace pantin {
 /// Bodies and particles that joints and forces couple, none with what stands outside.
 struct IslandChoice {
   std::vector<std::string> bodies{};  ///< names, particles included, in the order of the problem
+  bool has_loop{false};               ///< joints that close a loop
   std::string solver{};               ///< an integrator's name
   std::string reason{};               ///< in words
 };

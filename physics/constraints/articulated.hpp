@@ -96,8 +96,8 @@ class Articulated {
   template <int N>
   void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v);
   template <int N>
-  void reduce_link(const TreeLink& link, const LinkWork& work, Vec& p_a, Vec& p_l, double* y,
-                   Reduction& sum) const;
+  void reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a, Vec& p_l,
+                   double* y, Reduction& sum) const;
   template <int N>
   void substitute_link(const TreeLink& link, LinkWork& work, const Vec& dal, const Vec& da,
                        std::span<double> v_dot);

@@ -19,9 +19,12 @@ void Articulated::load_inertia(const TreeLayout& layout, const Tree& tree) {
 }
 
 template <int N>
-void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, Vec& p_a, Vec& p_l, double* y,
-                              Reduction& sum) const {
-  const double angular = dot(p_a, p_a), linear = dot(p_l, p_l);
+void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a,
+                              Vec& p_l, double* y, Reduction& sum) const {
+  // At its best the lever from the joint to the row's point is at right angles to the force.
+  const Vec lever = row.point - work.p;
+  const double linear = dot(row.force, row.force);
+  const double angular = dot(row.torque, row.torque) + dot(lever, lever) * linear;
   const Vec a = p_a, l = p_l;
   for (int j = 0; j < N; ++j) {
     const auto J = link.v + static_cast<std::uint32_t>(j);
@@ -64,7 +67,7 @@ Articulated::Reduction Articulated::reduce(const TreeLayout& layout, const Closu
     const TreeLink& link = layout.links[at.link];
     Passing& here = passing[k];
     with_model(link, [&](auto model) {
-      reduce_link<decltype(model)::kRates>(link, work_[at.link], here.p_a, here.p_l, y.data() + at.rates,
+      reduce_link<decltype(model)::kRates>(link, work_[at.link], row, here.p_a, here.p_l, y.data() + at.rates,
                                            sum);
     });
     if (at.up < 0) continue;

@@ -13,6 +13,8 @@ using kernel::dot;
 /// mu for scaled rows. Directions in which a loop is nearer to singular than some 3e-5 rad are let go, which
 /// keeps rounding from being multiplied without end; inertia carries the mechanism through.
 constexpr double kProximal = 1e-9;
+/// Pivots below are those of rows that others make redundant.
+constexpr double kRedundant = 100 * kProximal;
 constexpr int kRefinements = 4;
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
 
@@ -224,6 +226,15 @@ void count(double difference, double size, double& most) {
 }
 
 }  // namespace
+
+double ClosureSolver::margin(const Tree& tree) const {
+  double least = 1;
+  for (std::uint32_t i = places_[tree.closures_begin].row; i < places_[tree.closures_end].row; ++i) {
+    const double pivot = K_[row_at_[i] + (i - left_[i])];
+    if (pivot > kRedundant) least = std::min(least, pivot);
+  }
+  return least;
+}
 
 double ClosureSolver::gap_in_roundings(const Tree& tree) const {
   double most = 0;

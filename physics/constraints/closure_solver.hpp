@@ -41,6 +41,10 @@ class ClosureSolver {
   /// substitution feels them.
   void solve(const TreeLayout& layout, const Tree& tree, ClosureLevel level, Articulated& kernel);
 
+  /// How far the tree as factored last is from a position in which rows that are independent elsewhere depend
+  /// on each other: the least pivot that is not one of rows which always do, 1 where there are none.
+  [[nodiscard]] double margin(const Tree& tree) const;
+
   /// Greatest gap over its rounding: up to one it is nothing but rounding.
   [[nodiscard]] double gap_in_roundings(const Tree& tree) const;
   /// The same of the rates of gaps.

@@ -49,6 +49,13 @@ std::array<Real, kMostNodes> roots(int n, bool radau) {
   return found;
 }
 
+/// Coefficient of x^k in P_m.
+Real legendre_power(int m, int k) {
+  Real value = (m + k) % 2 == 0 ? 1 : -1;  // times (m + k)! / ((m - k)! k!^2)
+  for (int i = 1; i <= k; ++i) value *= static_cast<Real>((m + i) * (m - i + 1)) / (i * i);
+  return value;
+}
+
 Collocation collocation(int n, bool radau) {
   PANTIN_EXPECTS(n >= 1 && n <= kMostNodes, "number of nodes is " + std::to_string(n) + "; give 1 to 8");
   Collocation method;
@@ -73,6 +80,12 @@ Collocation collocation(int n, bool radau) {
       Real sum = c[i];  // k = 0
       for (std::size_t k = 1; k < size; ++k) sum += P[j][k] * (P[i][k + 1] - P[i][k - 1]) / 2;
       method.a[j][i] = static_cast<double>(b[j] * sum);
+    }
+    for (int k = 0; k < n; ++k) {
+      Real sum = 0;
+      for (int m = k; m < n; ++m)
+        sum += static_cast<Real>(2 * m + 1) * P[j][static_cast<std::size_t>(m)] * legendre_power(m, k);
+      method.powers[static_cast<std::size_t>(k)][j] = static_cast<double>(b[j] * sum / (k + 1));
     }
   }
   return method;

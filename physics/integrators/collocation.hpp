@@ -21,6 +21,8 @@ struct Collocation {
   std::array<double, kMostNodes> b{};  ///< weights: the end of the step is y + h sum b_j f_j
   NodeMatrix a{};                      ///< by column: a[j][i] is a_ij
   NodeMatrix legendre{};               ///< by row: coefficient k is sum_j legendre[k][j] f_j
+  /// By row: y(x h) = y_0 + h sum_k x^(k+1) sum_j powers[k][j] f_j inside the step, 0 <= x <= 1.
+  NodeMatrix powers{};
 };
 
 /// Gauss-Legendre: order 2 s, symmetric and symplectic; 1 to 8 nodes.

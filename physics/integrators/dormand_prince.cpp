@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <pantin/physics/expects.hpp>
+#include <pantin/physics/integrators/controlled.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
@@ -30,9 +30,11 @@ constexpr std::array<std::array<double, 6>, kStages> kMatrix{{
 constexpr std::array<double, kStages> kError{71. / 57600,      0,         -71. / 16695, 71. / 1920,
                                              -17253. / 339200, 22. / 525, -1. / 40};
 
-constexpr double kSafety = 0.9, kShrinkMost = 0.2, kGrowMost = 5;
-/// Steps shorter than this (of the time reached and the step asked for) are not tried.
-constexpr double kShortest = 1e-14;
+/// What the interpolant adds to the cubic through both ends.
+constexpr std::array<double, kStages> kInside{-12715105075. / 11282082432,  0,
+                                              87487479700. / 32700410799,   -10690763975. / 1880347072,
+                                              701980252875. / 199316789632, -1453857185. / 822651844,
+                                              69997945. / 29380423};
 
 /// Sum of weights[j] * slopes[j] from the first `count` slopes.
 void combine(std::span<double> out, const std::array<std::span<double>, kStages>& slopes,
@@ -43,98 +45,81 @@ void combine(std::span<double> out, const std::array<std::span<double>, kStages>
   }
 }
 
-class DormandPrince final : public Integrator {
+class DormandPrince final : public ControlledIntegrator {
  public:
-  explicit DormandPrince(const DormandPrinceSettings& settings) : settings_{settings} {}
+  explicit DormandPrince(const DormandPrinceSettings& settings)
+      : ControlledIntegrator{settings.tolerance}, settings_{settings} {}
 
   std::string_view name() const override { return "dormand-prince"; }
   int order() const override { return 5; }
   int evaluations(const Dynamics&) const override { return kStages; }
-  StepControl* control() override { return &control_; }
   std::unique_ptr<Integrator> another() const override { return make_dormand_prince(settings_); }
 
-  void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {
-    expect_step(dynamics, t, h, q, v);
-    take_room(q.size(), v.size());
-    control_.accepted = control_.refused = 0;
-    control_.shortest = h;
-    const bool controlled = std::isfinite(settings_.tolerance);
-    const double end = t + h, floor = kShortest * (std::abs(t) + h);
-    double next = controlled && control_.memory.next > 0 ? control_.memory.next : h, done = 0;
-    dynamics.derivative({t, Side::After}, q, v, K_[0], L_[0]);
-    while (done < h) {
-      const bool last = next >= h - done - floor;
-      const double part = last ? h - done : next;
-      stages(dynamics, last ? end : t + done + part, part, q, v);
-      const double error = controlled ? estimate(dynamics, part, q, v) : 0;
-      const double ratio = error / settings_.tolerance;
-      const double factor = ratio > 0 ? kSafety * std::pow(ratio, -0.25) : kGrowMost;
-      if (!(ratio <= 1)) {  // too far off, or not a number
-        ++control_.refused;
-        next = part * std::clamp(std::isfinite(factor) ? factor : 0, kShrinkMost, 1.0);
-        if (next < floor) return give_up(v);
-        continue;
-      }
-      std::copy(q1_.begin(), q1_.end(), q.begin());
-      std::copy(v1_.begin(), v1_.end(), v.begin());
-      go_on(dynamics, last ? end : t + done + part, last, q, v);
-      ++control_.accepted;
-      control_.shortest = std::min(control_.shortest, part);
-      // A part cut short by the end of the step says nothing against the step proposed before.
-      const double proposed = part * std::clamp(factor, kShrinkMost, kGrowMost);
-      next = last ? std::max(next, proposed) : proposed;
-      done = last ? h : done + part;
-    }
-    control_.memory.next = next;
-    dynamics.settle({t + h, Side::Before}, q, v);
-  }
-
  private:
-  void take_room(std::size_t q, std::size_t v) {
-    work_.reserve((kStages + 2) * (q + v));
-    for (std::span<double>& k : K_) k = work_.take(q);
-    for (std::span<double>& l : L_) l = work_.take(v);
-    q1_ = work_.take(q), v1_ = work_.take(v);
-    q_sum_ = work_.take(q), v_sum_ = work_.take(v);
+  void begin(Dynamics& dynamics, double t, double, std::span<const double> q,
+             std::span<const double> v) override {
+    dynamics_ = &dynamics;
+    work_.reserve((kStages + 2) * (q.size() + v.size()));
+    for (std::span<double>& k : K_) k = work_.take(q.size());
+    for (std::span<double>& l : L_) l = work_.take(v.size());
+    q1_ = work_.take(q.size()), v1_ = work_.take(v.size());
+    q_sum_ = work_.take(q.size()), v_sum_ = work_.take(v.size());
+    dynamics.derivative({t, Side::After}, q, v, K_[0], L_[0]);
   }
 
-  /// The last stage is the first of the next part, unless constraints move the state away from it.
-  void go_on(Dynamics& dynamics, double t, bool last, std::span<double> q, std::span<double> v) {
-    if (!dynamics.has_constraints() || last) {
-      std::swap(K_[0], K_[6]);
-      std::swap(L_[0], L_[6]);
-      return;
-    }
-    dynamics.settle({t, Side::Before}, q, v);
-    dynamics.derivative({t, Side::Before}, q, v, K_[0], L_[0]);
+  double first_part(double, double h, std::span<const double>, std::span<const double>) override {
+    return control_.memory.next > 0 ? control_.memory.next : h;
   }
 
-  /// Stages two to seven; the last one stands at (q1, v1), the solution at `end`.
-  void stages(Dynamics& dynamics, double end, double h, std::span<const double> q,
-              std::span<const double> v) {
+  /// Stages two to seven; the last one stands at (q1, v1), the solution at the end.
+  Outcome attempt(const Part& part, std::span<const double> q, std::span<const double> v) override {
     for (std::size_t i = 1; i < kStages; ++i) {
       combine(q_sum_, K_, kMatrix[i].data(), static_cast<int>(i));
       combine(v_sum_, L_, kMatrix[i].data(), static_cast<int>(i));
-      set_sum(q1_, q, h, q_sum_);
-      set_sum(v1_, v, h, v_sum_);
-      dynamics.derivative({end - (1 - kNodes[i]) * h, Side::Before}, q1_, v1_, K_[i], L_[i]);
+      set_sum(q1_, q, part.h, q_sum_);
+      set_sum(v1_, v, part.h, v_sum_);
+      dynamics_->derivative({part.end - (1 - kNodes[i]) * part.h, Side::Before}, q1_, v1_, K_[i], L_[i]);
     }
-  }
-
-  /// Error per unit time of the step just made.
-  double estimate(Dynamics& dynamics, double h, std::span<const double> q, std::span<const double> v) {
+    if (!is_controlled()) return {true, 1};
     combine(q_sum_, K_, kError.data(), kStages);
     combine(v_sum_, L_, kError.data(), kStages);
-    return dynamics.motion_error(q, v, q_sum_, v_sum_, h);
+    return decide(dynamics_->motion_error(q, v, q_sum_, v_sum_, part.h), {.order = 4, .grow_most = 5});
   }
 
-  // No step is short enough. The manager finds what is not finite and keeps the state before.
-  static void give_up(std::span<double> v) {
-    std::fill(v.begin(), v.end(), std::numeric_limits<double>::quiet_NaN());
+  void accept(const Part& part, std::span<double> q, std::span<double> v) override {
+    if (record_ != nullptr) record(part, q, v);
+    std::copy(q1_.begin(), q1_.end(), q.begin());
+    std::copy(v1_.begin(), v1_.end(), v.begin());
+    const Instant end{part.end, Side::Before};
+    const bool moves = dynamics_->has_constraints();
+    if (part.last || moves) dynamics_->settle(end, q, v);
+    if (part.last) return;
+    // The last stage is the first of the next part, unless constraints move the state away from it.
+    std::swap(K_[0], K_[6]);
+    std::swap(L_[0], L_[6]);
+    if (moves) dynamics_->derivative(end, q, v, K_[0], L_[0]);
+  }
+
+  /// y = y0 + x r + x (1 - x) s + x^2 (1 - x) u + x^2 (1 - x)^2 w  with  r = y1 - y0,  s = h k1 - r,
+  /// u = r - h k7 - s,  w = h sum d_i k_i  (ibid., II.6).
+  void record(const Part& part, std::span<const double> q, std::span<const double> v) {
+    const MotionRecord::Room room = record_->add(part.t, part.h, 4, q, v);
+    combine(q_sum_, K_, kInside.data(), kStages);
+    combine(v_sum_, L_, kInside.data(), kStages);
+    const auto fill = [&](std::size_t i, double y0, double y1, double k1, double k7, double inside) {
+      const double r = y1 - y0, s = part.h * k1 - r, u = r - part.h * k7 - s, w = part.h * inside;
+      room.at(1)[i] = r + s;
+      room.at(2)[i] = u + w - s;
+      room.at(3)[i] = -u - 2 * w;
+      room.at(4)[i] = w;
+    };
+    for (std::size_t i = 0; i < q.size(); ++i) fill(i, q[i], q1_[i], K_[0][i], K_[6][i], q_sum_[i]);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      fill(q.size() + i, v[i], v1_[i], L_[0][i], L_[6][i], v_sum_[i]);
   }
 
   DormandPrinceSettings settings_{};
-  StepControl control_{};
+  Dynamics* dynamics_{nullptr};
   WorkSpace work_{};
   std::array<std::span<double>, kStages> K_{}, L_{};
   std::span<double> q1_{}, v1_{}, q_sum_{}, v_sum_{};

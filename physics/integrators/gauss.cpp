@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/integrators/collocation.hpp>
+#include <pantin/physics/integrators/controlled.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
@@ -23,7 +23,7 @@
 namespace pantin {
 namespace {
 
-constexpr double kSafety = 0.9, kShrinkMost = 0.2, kGrowMost = 2;
+constexpr double kShrinkMost = 0.2, kGrowMost = 2;
 /// Accepted all the same: an error this much over the tolerance, which the safety factor makes rare.
 constexpr double kOvershoot = 2;
 /// The iteration stops where what it would still change is this part of the tolerance.
@@ -34,19 +34,15 @@ constexpr int kCheapSweeps = 8, kMostSweeps = 16;
 constexpr int kMostSweepsFixed = 60;
 /// The first step, as a part of the time in which slopes change by themselves, for each stage.
 constexpr double kFirstReach = 0.12;
-/// A step that is given is cut into no shorter parts than this many; a call that refuses more steps than this
-/// has met motion that no step resolves.
-constexpr double kMostParts = 1e4;
-constexpr int kMostRefusals = 1000000;
-/// Steps shorter than this (of the time reached and the step asked for) are not tried.
-constexpr double kShortest = 1e-14;
 /// Slopes are not known better than this, relative to themselves.
 constexpr double kRounding = 1e-15;
 
-class Gauss final : public Integrator {
+class Gauss final : public ControlledIntegrator {
  public:
   explicit Gauss(const GaussSettings& settings)
-      : settings_{settings}, method_{gauss_collocation(settings.stages)} {}
+      : ControlledIntegrator{settings.tolerance},
+        settings_{settings},
+        method_{gauss_collocation(settings.stages)} {}
 
   std::string_view name() const override {
     return settings_.stages == 4 ? "gauss8" : settings_.stages == 8 ? "gauss16" : "gauss";
@@ -54,51 +50,15 @@ class Gauss final : public Integrator {
   int order() const override { return 2 * settings_.stages; }
   int evaluations(const Dynamics&) const override { return 2 * settings_.stages; }
   std::unique_ptr<Integrator> another() const override { return make_gauss(settings_); }
-  StepControl* control() override { return &control_; }
-
-  void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {
-    expect_step(dynamics, t, h, q, v);
-    control_.accepted = control_.refused = 0;
-    control_.shortest = h;
-    if (q.empty() && v.empty()) return;
-    begin(dynamics, q, v);
-    const double end = t + h, least = std::isfinite(settings_.tolerance) ? 0 : h / kMostParts;
-    const double floor = std::max(kShortest * (std::abs(t) + h), least);
-    double next = first_step(t, h, q, v), done = 0;
-    while (done < h) {
-      const double rest = h - done;
-      // Two equal steps to the end rather than a long and a very short one.
-      const bool last = next >= rest - floor;
-      const double part = last ? rest : (next > 0.5 * rest ? 0.5 * rest : next);
-      const Outcome outcome = attempt(last ? end - part : t + done, part, q, v);
-      if (!outcome.accepted) {
-        ++control_.refused;
-        next = part * outcome.factor;
-        if (next < floor || control_.refused > kMostRefusals) return give_up(v);
-        continue;
-      }
-      finish(part, q, v);
-      dynamics.settle({last ? end : t + done + part, Side::Before}, q, v);
-      ++control_.accepted;
-      control_.shortest = std::min(control_.shortest, part);
-      const double proposed = part * outcome.factor;
-      next = last ? std::max(next, proposed) : proposed;
-      done = last ? h : done + part;
-    }
-    note_reached(next, q, v);
-  }
 
  private:
-  struct Outcome {
-    bool accepted{false};
-    double factor{1};  ///< of the step tried: what to try next
-  };
   /// Slopes at the stages, of coordinates and velocities.
   struct Slopes {
     std::span<double> q{}, v{};
   };
 
-  void begin(Dynamics& dynamics, std::span<const double> q, std::span<const double> v) {
+  void begin(Dynamics& dynamics, double, double, std::span<const double> q,
+             std::span<const double> v) override {
     dynamics_ = &dynamics;
     const auto s = static_cast<std::size_t>(method_.nodes);
     const std::size_t nq = q.size(), nv = v.size();
@@ -123,16 +83,14 @@ class Gauss final : public Integrator {
     kept_ = {kept.first(nq), kept.last(nv)};
   }
 
-  void note_reached(double next, std::span<const double> q, std::span<const double> v) {
+  void finish(std::span<const double> q, std::span<const double> v) override {
     StepMemory& memory = control_.memory;
-    memory.next = next;
     std::copy(q.begin(), q.end(), memory.reached.begin());
     std::copy(v.begin(), v.end(), memory.reached.begin() + static_cast<std::ptrdiff_t>(q.size()));
   }
 
-  /// The step to try first. Where nothing is known, from how fast the slopes change over a short trial.
-  double first_step(double t, double h, std::span<const double> q, std::span<const double> v) {
-    if (!std::isfinite(settings_.tolerance)) return h;
+  /// Where nothing is known, from how fast the slopes change over a short trial.
+  double first_part(double t, double h, std::span<const double> q, std::span<const double> v) override {
     if (continues_) return control_.memory.next;
     const std::span<double> k0 = now_.q.first(q.size()), f0 = now_.v.first(v.size());
     const std::span<double> k1 = fresh_.q.first(q.size()), f1 = fresh_.v.first(v.size());
@@ -151,12 +109,13 @@ class Gauss final : public Integrator {
     return omega * h > kFirstReach * settings_.stages ? kFirstReach * settings_.stages / omega : h;
   }
 
-  Outcome attempt(double t, double h, std::span<const double> q, std::span<const double> v) {
-    for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = {t + h * method_.c[i], Side::Before};
-    start(t, h, q, v);
-    const bool controlled = std::isfinite(settings_.tolerance);
+  Outcome attempt(const Part& part, std::span<const double> q, std::span<const double> v) override {
+    const double h = part.h;
+    for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = {part.t + h * method_.c[i], Side::Before};
+    start(part, q, v);
+    const bool controlled = is_controlled();
     const int most = controlled ? kMostSweeps : kMostSweepsFixed;
-    enough_ = std::max(controlled ? kIterationShare * settings_.tolerance : 0, kRounding * slope_size(h));
+    enough_ = std::max(controlled ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
     double last_change = 0;
     for (int sweep = 1;; ++sweep) {
       const double change = this->sweep(h, q, v), rho = sweep > 1 ? quotient(change, last_change) : 1;
@@ -175,15 +134,15 @@ class Gauss final : public Integrator {
   }
 
   /// Slopes to start the iteration from: the polynomial of the step before, or the slopes of now.
-  void start(double t, double h, std::span<const double> q, std::span<const double> v) {
+  void start(const Part& part, std::span<const double> q, std::span<const double> v) {
     if (continues_) {
-      const NodeMatrix E = extrapolation(method_, h / control_.memory.last);
+      const NodeMatrix E = extrapolation(method_, part.h / control_.memory.last);
       combine_stages(method_.nodes, now_.q, before_.q, E);
       combine_stages(method_.nodes, now_.v, before_.v, E);
       return;
     }
     const std::span<double> k0 = fresh_.q.first(q.size()), f0 = fresh_.v.first(v.size());
-    dynamics_->derivative({t, Side::After}, q, v, k0, f0);
+    dynamics_->derivative({part.t, Side::After}, q, v, k0, f0);
     spread(method_.nodes, now_.q, k0);
     spread(method_.nodes, now_.v, f0);
   }
@@ -204,18 +163,15 @@ class Gauss final : public Integrator {
 
   /// Of a step whose iteration has settled: whether the polynomial is good enough, and the next step.
   Outcome judge(double h, int sweeps, std::span<const double> q, std::span<const double> v) {
-    if (!std::isfinite(settings_.tolerance)) return {true, 1};
-    const double error = estimate(h, q, v);
-    const double ratio = error / settings_.tolerance;
-    const double factor = ratio > 0 ? kSafety * std::pow(ratio, -1.0 / (2 * settings_.stages)) : kGrowMost;
-    if (!(ratio <= kOvershoot)) {
-      return {false, std::clamp(std::isfinite(factor) ? factor : 0, kShrinkMost, 0.9)};
-    }
-    return {true, std::clamp(factor, kShrinkMost, sweeps > kCheapSweeps ? 1 : kGrowMost)};
+    if (!is_controlled()) return {true, 1};
+    return decide(estimate(h, q, v), {.order = 2.0 * settings_.stages,
+                                      .grow_most = sweeps > kCheapSweeps ? 1.0 : kGrowMost,
+                                      .overshoot = kOvershoot});
   }
 
   /// Error per unit time. The quadrature leaves out the Legendre coefficient number 2 s of the slopes; it is
-  /// the last one known, s - 1, continued at the rate at which the last ones fall off.
+  /// the last one known, s - 1, continued at the rate at which the last ones fall off. Where motions have no
+  /// pole nearby the rate itself falls off, and errors are smaller (README, "What a tolerance means").
   double estimate(double h, std::span<const double> q, std::span<const double> v) {
     const int s = method_.nodes;
     const std::span<double> q_top = fresh_.q.first(q.size()), v_top = fresh_.v.first(v.size());
@@ -246,23 +202,29 @@ class Gauss final : public Integrator {
                     h * greatest(method_.nodes, now_.v, v_weight_));
   }
 
-  /// The end of a step from its slopes.
-  void finish(double h, std::span<double> q, std::span<double> v) {
+  void accept(const Part& part, std::span<double> q, std::span<double> v) override {
     const int s = method_.nodes;
-    add_stages(s, V_, v, h, now_.v, method_.a);
+    add_stages(s, V_, v, part.h, now_.v, method_.a);
     dynamics_->rates({at(), Q_, V_, now_.q, {}});
-    add_compensated(s, q, kept_.q, h, now_.q, method_.b);
-    add_compensated(s, v, kept_.v, h, now_.v, method_.b);
+    if (record_ != nullptr) record(part, q, v);
+    add_compensated(s, q, kept_.q, part.h, now_.q, method_.b);
+    add_compensated(s, v, kept_.v, part.h, now_.v, method_.b);
     std::copy(now_.q.begin(), now_.q.end(), before_.q.begin());
     std::copy(now_.v.begin(), now_.v.end(), before_.v.begin());
-    control_.memory.last = h;
+    control_.memory.last = part.h;
     continues_ = true;
+    dynamics_->settle({part.end, Side::Before}, q, v);
   }
 
-  // No step is short enough. The manager finds what is not finite and keeps the state before.
-  void give_up(std::span<double> v) {
-    control_.memory = {};
-    std::fill(v.begin(), v.end(), std::numeric_limits<double>::quiet_NaN());
+  void record(const Part& part, std::span<const double> q, std::span<const double> v) {
+    const auto nodes = static_cast<std::size_t>(method_.nodes);
+    const MotionRecord::Room room = record_->add(part.t, part.h, nodes, q, v);
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const std::span<double> c = room.at(k + 1);
+      coefficients(method_.nodes, c.first(q.size()), now_.q, method_.powers[k]);
+      coefficients(method_.nodes, c.subspan(q.size()), now_.v, method_.powers[k]);
+      for (double& x : c) x *= part.h;
+    }
   }
 
   [[nodiscard]] std::span<const Instant> at() const {
@@ -271,7 +233,6 @@ class Gauss final : public Integrator {
 
   GaussSettings settings_{};
   Collocation method_{};
-  StepControl control_{};
   double enough_{0};  ///< change of slopes at which the iteration stops
   Dynamics* dynamics_{nullptr};
   bool continues_{false};

@@ -3,6 +3,7 @@
 // time and state. An integrator knows no body, joint or force. To add one: a file with a class, and one line
 // in catalogue.cpp.
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include <pantin/physics/driver.hpp>
+#include <pantin/physics/integrators/motion_record.hpp>
 
 namespace pantin {
 
@@ -107,8 +109,17 @@ class Integrator {
   /// A new one of the same kind and settings. Unless told otherwise, by name from the catalogue; rk4 for a
   /// name that is not there.
   [[nodiscard]] virtual std::unique_ptr<Integrator> another() const;
+  /// Error per unit time that it keeps to by choosing its steps; infinity: it takes the steps it is asked
+  /// for.
+  [[nodiscard]] virtual double tolerance() const { return std::numeric_limits<double>::infinity(); }
   /// Its own control of steps; null if it takes the steps it is asked for.
   [[nodiscard]] virtual StepControl* control() { return nullptr; }
+  /// Where to add the motion inside steps from now on; null = nowhere. Ignored by an integrator that has no
+  /// interpolant of its own.
+  void record_into(MotionRecord* record) noexcept { record_ = record; }
+
+ protected:
+  MotionRecord* record_{nullptr};
 };
 
 /// A new integrator by name; null for an unknown name.

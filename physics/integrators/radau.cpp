@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/integrators/collocation.hpp>
+#include <pantin/physics/integrators/controlled.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
@@ -26,71 +26,26 @@ namespace {
 constexpr int kStages = 4;
 constexpr std::array<double, kStages> kDiagonal{.25832332244025374, .08465508228266594, .20389264736174081,
                                                 .30630376583844887};
-constexpr double kSafety = 0.8, kShrinkMost = 0.2, kGrowMost = 3;
-constexpr double kOvershoot = 2, kIterationShare = 0.05;
+constexpr double kIterationShare = 0.05;
 constexpr int kMostSweeps = 60, kStepsPerDerivative = 20;
 constexpr double kSlow = 0.6;  ///< contraction from which the derivative is taken anew
-/// A step that is given is cut into no shorter parts than this many; a call that refuses more steps than this
-/// has met motion that no step resolves.
-constexpr double kMostParts = 1e4;
-constexpr int kMostRefusals = 1000000;
-constexpr double kShortest = 1e-14, kRounding = 1e-15;
+constexpr double kRounding = 1e-15;
+constexpr double kFirstPart = 0.01;                      ///< of the step asked for, where nothing is known
 constexpr double kDifference = 3e-8, kLeastSize = 1e-3;  ///< of a number [m, rad, ...], for differences
 
-class Radau final : public Integrator {
+class Radau final : public ControlledIntegrator {
  public:
-  explicit Radau(const RadauSettings& settings) : settings_{settings} {}
+  explicit Radau(const RadauSettings& settings)
+      : ControlledIntegrator{settings.tolerance}, settings_{settings} {}
 
   std::string_view name() const override { return "radau"; }
   int order() const override { return 2 * kStages - 1; }
   int evaluations(const Dynamics&) const override { return 2 * kStages; }
   std::unique_ptr<Integrator> another() const override { return make_radau(settings_); }
-  StepControl* control() override { return &control_; }
-
-  void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {
-    expect_step(dynamics, t, h, q, v);
-    control_.accepted = control_.refused = 0;
-    control_.shortest = h;
-    if (q.empty() && v.empty()) return;
-    begin(dynamics, q, v);
-    const double end = t + h, least = std::isfinite(settings_.tolerance) ? 0 : h / kMostParts;
-    const double floor = std::max(kShortest * (std::abs(t) + h), least);
-    const bool controlled = std::isfinite(settings_.tolerance);
-    double next = controlled && control_.memory.next > 0 ? control_.memory.next : (controlled ? 0.01 * h : h),
-           done = 0;
-    while (done < h) {
-      const double rest = h - done;
-      const bool last = next >= rest - floor;
-      const double part = last ? rest : (next > 0.5 * rest ? 0.5 * rest : next);
-      const Outcome outcome = attempt(last ? end - part : t + done, part);
-      if (!outcome.accepted) {
-        ++control_.refused;
-        next = part * outcome.factor;
-        if (next < floor || control_.refused > kMostRefusals) return give_up(v);
-        continue;
-      }
-      add_compensated(kStages, y_, kept_back_, part, k_, method_.b);
-      std::copy_n(y_.begin(), q.size(), q.begin());
-      std::copy_n(y_.begin() + static_cast<std::ptrdiff_t>(q.size()), v.size(), v.begin());
-      dynamics.settle({last ? end : t + done + part, Side::Before}, q, v);
-      take(q, v);
-      ++control_.accepted;
-      ++age_;
-      control_.shortest = std::min(control_.shortest, part);
-      const double proposed = part * outcome.factor;
-      next = last ? std::max(next, proposed) : proposed;
-      done = last ? h : done + part;
-    }
-    control_.memory.next = next;
-  }
 
  private:
-  struct Outcome {
-    bool accepted{false};
-    double factor{1};
-  };
-
-  void begin(Dynamics& dynamics, std::span<const double> q, std::span<const double> v) {
+  void begin(Dynamics& dynamics, double, double, std::span<const double> q,
+             std::span<const double> v) override {
     dynamics_ = &dynamics;
     nq_ = q.size();
     n_ = q.size() + v.size();
@@ -105,6 +60,28 @@ class Radau final : public Integrator {
     if (J_.rows() != n) J_.resize(n, n), x_.resize(n);
     age_ = kStepsPerDerivative;  // what was differentiated in another call may be another system
     factored_for_ = 0;
+  }
+
+  double first_part(double, double h, std::span<const double>, std::span<const double>) override {
+    return control_.memory.next > 0 ? control_.memory.next : kFirstPart * h;
+  }
+
+  void accept(const Part& part, std::span<double> q, std::span<double> v) override {
+    if (record_ != nullptr) record(part, q, v);
+    add_compensated(kStages, y_, kept_back_, part.h, k_, method_.b);
+    std::copy_n(y_.begin(), q.size(), q.begin());
+    std::copy_n(y_.begin() + static_cast<std::ptrdiff_t>(q.size()), v.size(), v.begin());
+    dynamics_->settle({part.end, Side::Before}, q, v);
+    take(q, v);
+    ++age_;
+  }
+
+  void record(const Part& part, std::span<const double> q, std::span<const double> v) {
+    const MotionRecord::Room room = record_->add(part.t, part.h, kStages, q, v);
+    for (std::size_t k = 0; k < kStages; ++k) {
+      coefficients(kStages, room.at(k + 1), k_, method_.powers[k]);
+      for (double& x : room.at(k + 1)) x *= part.h;
+    }
   }
 
   void take(std::span<const double> q, std::span<const double> v) {
@@ -141,20 +118,22 @@ class Radau final : public Integrator {
     factored_for_ = h;
   }
 
-  Outcome attempt(double t, double h) {
+  Outcome attempt(const Part& part, std::span<const double>, std::span<const double>) override {
+    const double t = part.t, h = part.h;
     for (std::size_t i = 0; i < kStages; ++i) at_[i] = {t + h * method_.c[i], Side::Before};
     evaluate({t, Side::After}, y_, slope_);
     if (age_ >= kStepsPerDerivative) differentiate(t, h);
     factor(h);
     spread(kStages, k_, slope_);
-    const bool controlled = std::isfinite(settings_.tolerance);
     double last = 0;
     for (int sweep = 1; sweep <= kMostSweeps; ++sweep) {
       const double change = improve(h), rho = sweep > 1 ? quotient(change, last) : 1;
       if (!std::isfinite(change)) break;
       const double enough =
-          std::max(controlled ? kIterationShare * settings_.tolerance : 0, kRounding * slope_size(h));
-      const bool stalls = sweep > 6 && rho > 0.9 && change <= 1e4 * enough + 1e-11 * slope_size(h);
+          std::max(is_controlled() ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
+      // What changes at the level of rounding will not settle further.
+      const bool stalls = (sweep > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) ||
+                          (sweep > 6 && rho > 0.9 && change <= 1e4 * enough + 1e-11 * slope_size(h));
       if (change <= enough || stalls || (sweep > 1 && rho < 1 && change * rho < enough * (1 - rho))) {
         if (rho > kSlow && age_ > 0) age_ = kStepsPerDerivative;
         return judge(h);
@@ -193,7 +172,7 @@ class Radau final : public Integrator {
 
   /// As in gauss.cpp: the first Legendre coefficient that the step leaves out, by how the last ones fall off.
   Outcome judge(double h) {
-    if (!std::isfinite(settings_.tolerance)) return {true, 1};
+    if (!is_controlled()) return {true, 1};
     std::array<double, kStages> sizes{};
     for (std::size_t k = 0; k < kStages; ++k) {
       coefficients(kStages, trial_, k_, method_.legendre[k]);
@@ -209,21 +188,11 @@ class Radau final : public Integrator {
           dynamics_->motion_error(y_.first(nq_), y_.subspan(nq_), trial_.first(nq_), trial_.subspan(nq_), h);
       error = top * std::pow(std::min(decay, 1.0), kStages - 1);
     }
-    const double ratio = error / settings_.tolerance;
-    const double by = ratio > 0 ? kSafety * std::pow(ratio, -1.0 / (kStages + 2)) : kGrowMost;
-    if (!(ratio <= kOvershoot)) return {false, std::clamp(std::isfinite(by) ? by : 0, kShrinkMost, 0.9)};
-    return {true, std::clamp(by, kShrinkMost, kGrowMost)};
-  }
-
-  // No step is short enough. The manager finds what is not finite and keeps the state before.
-  void give_up(std::span<double> v) {
-    control_.memory = {};
-    std::fill(v.begin(), v.end(), std::numeric_limits<double>::quiet_NaN());
+    return decide(error, {.order = kStages + 2, .safety = 0.8, .grow_most = 3, .overshoot = 2});
   }
 
   RadauSettings settings_{};
   Collocation method_{radau_collocation(kStages)};
-  StepControl control_{};
   Dynamics* dynamics_{nullptr};
   std::size_t nq_{0}, n_{0};
   WorkSpace work_{};

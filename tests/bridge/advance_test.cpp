@@ -32,6 +32,43 @@ TEST(Advance, ReportsWhatTheCapDropped) {
   EXPECT_EQ(bridge.advance(0.1).dropped, 0);
 }
 
+TEST(Advance, StridesWhereTheIntegratorChoosesItsSteps) {
+  // A body at rest and one that flies straight need one evaluation after another of nothing: with a
+  // tolerance, 1,000 steps that are due go as one update that is cut only as the first guess grows; a toggle
+  // still cuts it. The straight line is the oracle.
+  Stage s{0.001};
+  s.physics.set_integrator(make_integrator("gauss8", 1e-9));
+  s.bridge.set_stepping(Stepping::Adaptive);
+  const NodeId rests = box(s, s.scene.root(), "rests", moved({5, 0, 0}));
+  const NodeId flies = box(s, s.scene.root(), "flies", Affine::Identity());
+  ASSERT_TRUE(s.bridge.hand_over(rests).empty());
+  ASSERT_TRUE(s.bridge.hand_over(flies).empty());
+  s.physics.set_velocity(s.bridge.body_of(flies), {2, 0, 0}, {0, 0, 0});
+  AdvanceReport report = s.bridge.advance(1.0005);
+  EXPECT_EQ(report.updates, 1);
+  EXPECT_DOUBLE_EQ(report.longest_update, 1.0);
+  EXPECT_GE(report.inner_steps, 1);
+  EXPECT_LT(report.inner_steps, 10);
+  EXPECT_GT(report.shortest_step, 0.05);
+  EXPECT_DOUBLE_EQ(report.time, 1.0);
+  EXPECT_NEAR(s.bridge.clock().rest(), 0.0005, 1e-12);
+  EXPECT_NEAR(s.scene.world(flies).translation().x(), 2.0, 1e-13);
+  EXPECT_EQ(s.scene.world(rests).translation(), Vector3(5, 0, 0));
+  s.bridge.schedule({.time = 1.25, .node = flies, .drive = Drive::Scene});
+  report = s.bridge.advance(1.0);
+  EXPECT_EQ(report.updates, 2);
+  EXPECT_NEAR(s.scene.world(flies).translation().x(), 2.5, 1e-13);
+}
+
+TEST(Advance, StepsEvenlyWhereTheIntegratorKeepsToNoTolerance) {
+  // Adaptive stepping asks the integrator; rk4 takes the steps it is given.
+  Stage s{0.1};
+  s.bridge.set_stepping(Stepping::Adaptive);
+  const AdvanceReport report = s.bridge.advance(0.55);
+  EXPECT_EQ(report.updates, 5);
+  EXPECT_NEAR(report.longest_update, 0.1, 1e-15);
+}
+
 TEST(Advance, SamplesPlayersAtPhysicsTimeOnly) {
   // The rest that is carried over moves no node: after 0.25 s in steps of 0.1 s the clip stands at 0.2 s.
   Stage s{0.1};

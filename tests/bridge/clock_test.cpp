@@ -51,6 +51,22 @@ TEST(Clock, DropsWhatTheCapDoesNotAllowAndSaysSo) {
   EXPECT_NEAR(clock.time(), 0.4, 1e-15);
 }
 
+TEST(Clock, TellsHowFarOneUpdateMayGo) {
+  // Three steps of 0.5 s are due with a landing at 0.7 s: two stops, then nothing; the grid and the rest are
+  // those of single steps.
+  Clock clock{{.step = 0.5}};
+  clock.land_on(0.7);
+  clock.add(1.6);
+  ASSERT_EQ(clock.next_stop(), 0.7);
+  clock.reached(0.7);
+  ASSERT_EQ(clock.next_stop(), 1.5);
+  clock.reached(1.5);
+  EXPECT_FALSE(clock.next_stop());
+  EXPECT_NEAR(clock.rest(), 0.1, 1e-15);
+  clock.add(0.4);
+  EXPECT_EQ(clock.next_stop(), 2.0);
+}
+
 TEST(Clock, LandsExactlyAndKeepsItsGrid) {
   // A landing between counts cuts the step in two; the counts stay multiples of the step.
   Clock clock{{.step = 0.5}};

@@ -114,6 +114,26 @@ TEST(Run, TakesTheIntegratorAskedFor) {
   EXPECT_NEAR(height("semi-implicit-euler"), -9.81 / 2 - 9.81 * 0.01 / 2, 1e-12);
 }
 
+TEST(Run, StridesFromSampleToSample) {
+  // A stone under gravity is a parabola, which gauss8 follows in any step: with --adaptive two samples take
+  // two updates, without it 200 steps of 0.01 s.
+  const Folder folder;
+  const std::string file = folder.write("stone.urdf", kStoneUrdf);
+  std::vector<std::string> arguments{
+      file,   "--floating-base", "--simulate", "all",          "--duration", "2", "--every", "1", "--step",
+      "0.01", "--tolerance",     "1e-9",       "--integrator", "gauss8"};
+  EXPECT_EQ(run(arguments)["summary"]["steps"], 200);
+  arguments.push_back("--adaptive");
+  const nlohmann::json told = run(arguments);
+  EXPECT_EQ(told["summary"]["steps"], 2);
+  EXPECT_NEAR(told["samples"].back()["bodies"]["stone"]["position_origin"][2].get<double>(), -2 * 9.81,
+              1e-11);
+  const Ran ran = pantin({"run", file, "--simulate", "all", "--adaptive"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_TRUE(ran.says("--adaptive: needs --integrator dormand-prince, gauss8, gauss16 or radau, not rk4"))
+      << ran.err;
+}
+
 TEST(Run, TurnsModelsOfAnotherUpAxis) {
   // The cart rises along +Y of its file; with Z up in the scene that is +Z, and gravity acts along -Z.
   const TemporaryFolder folder;

@@ -1,0 +1,64 @@
+// The motion inside the last step: recorded while the world is integrated, evaluated on demand.
+#include <algorithm>
+
+#include <pantin/physics/expects.hpp>
+#include <pantin/physics/setting_checks.hpp>
+#include <pantin/physics/world.hpp>
+
+namespace pantin {
+
+void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v) {
+  const double t = bodies.state.time;
+  integrator->record_into(keeps_motion ? &motion : nullptr);
+  if (!keeps_motion) return integrator->step(system, t, h, q, v);
+  start.assign(q.begin(), q.end());
+  start.insert(start.end(), v.begin(), v.end());
+  const std::size_t parts = motion.parts();
+  integrator->step(system, t, h, q, v);
+  if (motion.parts() > parts) return;
+  // The integrator has no interpolant: a cubic between the ends.
+  const std::span<const double> q0 = std::span{start}.first(q.size()), v0 = std::span{start}.last(v.size());
+  const MotionRecord::Room part = motion.add(t, h, 3, q0, v0);
+  const auto split = [&](std::size_t k) {
+    return std::pair{part.at(k).first(q.size()), part.at(k).last(v.size())};
+  };
+  const auto [q1, v1] = split(1);
+  std::copy(q.begin(), q.end(), q1.begin());
+  std::copy(v.begin(), v.end(), v1.begin());
+  const auto [q_dot1, v_dot1] = split(2);
+  system.derivative({t + h, Side::Before}, q, v, q_dot1, v_dot1);
+  const auto [q_dot0, v_dot0] = split(3);
+  system.derivative({t, Side::After}, q0, v0, q_dot0, v_dot0);
+  MotionRecord::fit_cubic(part, h);
+}
+
+const std::vector<BodyKinematics>& WorldDynamics::kinematics_at(Instant at, std::span<const double> q,
+                                                                std::span<const double> v) {
+  place_grounds(at);
+  place_free(q, v, {});
+  place_trees(at, q, v);
+  return stage_;
+}
+
+void PhysicsManager::keep_motion(bool keep) {
+  impl_->keeps_motion = keep;
+  if (!keep) impl_->motion.clear();
+}
+
+std::vector<BodyKinematics> PhysicsManager::motion_at(double t) {
+  Impl& world = *impl_;
+  PANTIN_EXPECTS(world.keeps_motion && !world.motion.empty(),
+                 "no motion inside a step is kept; call keep_motion(true) before a step that goes well");
+  PANTIN_EXPECTS(world.motion_topology == world.bodies.state.topology,
+                 "bodies, joints or kinds have changed since the last step; ask before they change");
+  const double begin = world.motion.begin(), end = world.motion.end(), slack = 1e-9 * (end - begin);
+  PANTIN_EXPECTS(t >= begin - slack && t <= end + slack,
+                 "time " + text_of(t) + " s is not inside the last step, which went from " + text_of(begin) +
+                     " to " + text_of(end) + " s");
+  const double inside = std::clamp(t, begin, end);
+  std::vector<double> q(world.dynamics.coordinates()), v(world.dynamics.velocities());
+  world.motion.evaluate(inside, q, v);
+  return world.dynamics.kinematics_at({inside, Side::Before}, q, v);
+}
+
+}  // namespace pantin
