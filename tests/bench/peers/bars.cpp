@@ -152,8 +152,8 @@ std::string cell(const Comparison& c, const std::string& peer, std::size_t error
   const Crossing at = time_at(*entry, c.errors[error]);
   const double ratio = at.seconds / own;
   char text[96];
-  std::snprintf(text, sizeof text, "%s%.3g ms, %s%.3g of %g%s", sign_of(at.known), 1e3 * at.seconds,
-                ratio < bar->ratios[error] ? "**missed** " : "", ratio, bar->ratios[error], "");
+  std::snprintf(text, sizeof text, "%s%.3g ms, %s%.3g of %g", sign_of(at.known), 1e3 * at.seconds,
+                ratio < bar->ratios[error] ? "**missed** " : "", ratio, bar->ratios[error]);
   return text;
 }
 
