@@ -96,12 +96,15 @@ Collocation collocation(int n, bool radau) {
 Collocation gauss_collocation(int nodes) { return collocation(nodes, false); }
 Collocation radau_collocation(int nodes) { return collocation(nodes, true); }
 
-NodeMatrix extrapolation(const Collocation& method, double ratio) {
+namespace {
+
+/// Values of the polynomial through the nodes at the places start + ratio c_i, by column.
+NodeMatrix values_at(const Collocation& method, double start, double ratio) {
   NodeMatrix E{};
   const auto size = static_cast<std::size_t>(method.nodes);
   for (std::size_t i = 0; i < size; ++i) {
     std::array<double, kMostNodes> P{1};
-    const double x = 1 + 2 * ratio * method.c[i];  // in [-1, 1] where P_k has its usual form
+    const double x = 2 * (start + ratio * method.c[i]) - 1;  // in [-1, 1] where P_k has its usual form
     if (size > 1) P[1] = x;
     for (std::size_t k = 1; k + 1 < size; ++k) {
       const auto n = static_cast<double>(k);
@@ -113,5 +116,10 @@ NodeMatrix extrapolation(const Collocation& method, double ratio) {
   }
   return E;
 }
+
+}  // namespace
+
+NodeMatrix extrapolation(const Collocation& method, double ratio) { return values_at(method, 1, ratio); }
+NodeMatrix interpolation(const Collocation& method, double ratio) { return values_at(method, 0, ratio); }
 
 }  // namespace pantin

@@ -33,5 +33,7 @@ struct Collocation {
 /// Values of the polynomial through the nodes of one step at the nodes of the next, `ratio` times as long; by
 /// column, as `a`.
 [[nodiscard]] NodeMatrix extrapolation(const Collocation& method, double ratio);
+/// The same at the nodes of a step from the same start, `ratio` times as long.
+[[nodiscard]] NodeMatrix interpolation(const Collocation& method, double ratio);
 
 }  // namespace pantin

@@ -1,11 +1,10 @@
 // Stage values  V_i = v + h sum a_ij F_j,  Q_i = q + h sum a_ij K_j,  K_i = rate(Q_i, V_i),  F_i = v'(Q_i,
 // V_i), iterated until they repeat; then  q1 = q + h sum b_j K_j,  v1 = v + h sum b_j F_j, in compensated
 // sums. K is taken at the newest V, so that motion along q' = v converges as for an equation of second order.
-// The iteration starts from the polynomial of the step before, continued; its last coefficients, which fall
-// off geometrically where the motion is resolved, say how large the first one left out is. M. Antonana, E.
-// Alberdi, J. Makazaga, A. Murua, An implicit symplectic solver for high-precision long-term integrations of
-// the Solar System, 2022, for the arrangement of stages; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
-// Integration, 2nd ed., VIII.6, for starting values and stopping.
+// The iteration starts from the polynomial of the step before, continued; the error is estimated as in
+// series_tail.hpp. M. Antonana, E. Alberdi, J. Makazaga, A. Murua, An implicit symplectic solver for
+// high-precision long-term integrations of the Solar System, 2022, for the arrangement of stages; E. Hairer,
+// C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., VIII.6, for starting values and stopping.
 #include <pantin/physics/integrators/gauss.hpp>
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/integrators/collocation.hpp>
 #include <pantin/physics/integrators/controlled.hpp>
+#include <pantin/physics/integrators/series_tail.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
@@ -23,11 +23,11 @@
 namespace pantin {
 namespace {
 
-constexpr double kShrinkMost = 0.2, kGrowMost = 2;
-/// Accepted all the same: an error this much over the tolerance, which the safety factor makes rare.
-constexpr double kOvershoot = 2;
+constexpr double kSafety = 0.75, kShrinkMost = 0.2, kGrowMost = 1.5;
+/// Accepted all the same: an error this much over the tolerance, as the estimate is mostly too large.
+constexpr double kOvershoot = 5;
 /// The iteration stops where what it would still change is this part of the tolerance.
-constexpr double kIterationShare = 0.1;
+constexpr double kIterationShare = 0.3;
 /// With more sweeps than this a step does not grow; one that needs more than the second number is halved.
 constexpr int kCheapSweeps = 8, kMostSweeps = 16;
 /// Where the step is given, as many as it takes.
@@ -60,6 +60,7 @@ class Gauss final : public ControlledIntegrator {
   void begin(Dynamics& dynamics, double, double, std::span<const double> q,
              std::span<const double> v) override {
     dynamics_ = &dynamics;
+    refused_ = {};
     const auto s = static_cast<std::size_t>(method_.nodes);
     const std::size_t nq = q.size(), nv = v.size();
     work_.reserve((3 * s + 1) * (nq + nv));
@@ -110,9 +111,16 @@ class Gauss final : public ControlledIntegrator {
   }
 
   Outcome attempt(const Part& part, std::span<const double> q, std::span<const double> v) override {
+    const Outcome outcome = iterate(part, q, v);
+    if (!outcome.accepted) refused_.h = part.h;
+    return outcome;
+  }
+
+  Outcome iterate(const Part& part, std::span<const double> q, std::span<const double> v) {
     const double h = part.h;
     for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = {part.t + h * method_.c[i], Side::Before};
     start(part, q, v);
+    refused_.settled = false;
     const bool controlled = is_controlled();
     const int most = controlled ? kMostSweeps : kMostSweepsFixed;
     enough_ = std::max(controlled ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
@@ -133,18 +141,22 @@ class Gauss final : public ControlledIntegrator {
     }
   }
 
-  /// Slopes to start the iteration from: the polynomial of the step before, or the slopes of now.
+  /// Slopes to start from: of the refused part, which reaches further, of the step before, or of now.
   void start(const Part& part, std::span<const double> q, std::span<const double> v) {
-    if (continues_) {
-      const NodeMatrix E = extrapolation(method_, part.h / control_.memory.last);
-      combine_stages(method_.nodes, now_.q, before_.q, E);
-      combine_stages(method_.nodes, now_.v, before_.v, E);
-      return;
+    if (refused_.settled) {
+      carry(fresh_, now_, interpolation(method_, part.h / refused_.h));
+      return std::swap(now_, fresh_);
     }
+    if (continues_) return carry(now_, before_, extrapolation(method_, part.h / control_.memory.last));
     const std::span<double> k0 = fresh_.q.first(q.size()), f0 = fresh_.v.first(v.size());
     dynamics_->derivative({part.t, Side::After}, q, v, k0, f0);
     spread(method_.nodes, now_.q, k0);
     spread(method_.nodes, now_.v, f0);
+  }
+
+  void carry(const Slopes& to, const Slopes& from, const NodeMatrix& E) const {
+    combine_stages(method_.nodes, to.q, from.q, E);
+    combine_stages(method_.nodes, to.v, from.v, E);
   }
 
   /// One iteration, from now_ to now_; says by how much it changed the slopes, as motion per unit time.
@@ -164,36 +176,34 @@ class Gauss final : public ControlledIntegrator {
   /// Of a step whose iteration has settled: whether the polynomial is good enough, and the next step.
   Outcome judge(double h, int sweeps, std::span<const double> q, std::span<const double> v) {
     if (!is_controlled()) return {true, 1};
-    return decide(estimate(h, q, v), {.order = 2.0 * settings_.stages,
-                                      .grow_most = sweeps > kCheapSweeps ? 1.0 : kGrowMost,
-                                      .overshoot = kOvershoot});
+    const bool grows = sweeps <= kCheapSweeps && refused_.h == 0;
+    const double error = estimate(h, q, v);
+    refused_.settled = std::isfinite(error);
+    return decide(error, {.order = 2.0 * settings_.stages,
+                          .safety = kSafety,
+                          .shrink_most = kShrinkMost,
+                          .grow_most = grows ? kGrowMost : 1,
+                          .overshoot = kOvershoot});
   }
 
-  /// Error per unit time. The quadrature leaves out the Legendre coefficient number 2 s of the slopes; it is
-  /// the last one known, s - 1, continued at the rate at which the last ones fall off. Where motions have no
-  /// pole nearby the rate itself falls off, and errors are smaller (README, "What a tolerance means").
+  /// Error per unit time.
   double estimate(double h, std::span<const double> q, std::span<const double> v) {
     const int s = method_.nodes;
     const std::span<double> q_top = fresh_.q.first(q.size()), v_top = fresh_.v.first(v.size());
-    std::array<double, 4> sizes{};  // of the last four coefficients, the last one first
+    const auto take = [&](int k) {
+      coefficients(s, q_top, now_.q, method_.legendre[static_cast<std::size_t>(k)]);
+      coefficients(s, v_top, now_.v, method_.legendre[static_cast<std::size_t>(k)]);
+    };
+    std::array<double, 4> sizes{};  // of the last coefficients, the last one first
     for (int back = std::min(s, 4) - 1; back >= 0; --back) {
-      const auto& row = method_.legendre[static_cast<std::size_t>(s - 1 - back)];
-      coefficients(s, q_top, now_.q, row);
-      coefficients(s, v_top, now_.v, row);
+      take(s - 1 - back);
       sizes[static_cast<std::size_t>(back)] =
           std::max(greatest(q_top, q_weight_), h * greatest(v_top, v_weight_));
     }
-    // Every other coefficient may vanish by symmetry: two neighbours against the two before them.
-    const double last = std::max(sizes[0], sizes[1]), noise = 10 * kRounding * slope_size(h);
-    if (last <= noise) return 0;
-    const double decay = std::sqrt(last / std::max({sizes[2], sizes[3], noise}));
-    const double missing = std::pow(std::min(decay, 1.0), s + 1);
-    if (s == 1 || sizes[0] >= decay * sizes[1])
-      return missing * dynamics_->motion_error(q, v, q_top, v_top, h);
-    const auto& row = method_.legendre[static_cast<std::size_t>(s - 2)];
-    coefficients(s, q_top, now_.q, row);
-    coefficients(s, v_top, now_.v, row);
-    return missing * decay * dynamics_->motion_error(q, v, q_top, v_top, h);
+    const SeriesTail tail = tail_of(sizes, s, 10 * kRounding * slope_size(h));
+    if (tail.share == 0) return 0;
+    if (tail.back > 0) take(s - 1 - tail.back);
+    return tail.share * dynamics_->motion_error(q, v, q_top, v_top, h);
   }
 
   /// How large the slopes are, as motion per unit time.
@@ -213,6 +223,7 @@ class Gauss final : public ControlledIntegrator {
     std::copy(now_.v.begin(), now_.v.end(), before_.v.begin());
     control_.memory.last = part.h;
     continues_ = true;
+    refused_ = {};
     dynamics_->settle({part.end, Side::Before}, q, v);
   }
 
@@ -233,6 +244,11 @@ class Gauss final : public ControlledIntegrator {
 
   GaussSettings settings_{};
   Collocation method_{};
+  struct Refused {
+    double h{0};          ///< of the part tried last from here; 0 = none was
+    bool settled{false};  ///< its slopes are right, though it is too long
+  };
+  Refused refused_{};
   double enough_{0};  ///< change of slopes at which the iteration stops
   Dynamics* dynamics_{nullptr};
   bool continues_{false};

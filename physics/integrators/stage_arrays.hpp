@@ -20,36 +20,11 @@ inline decltype(auto) with_stages(int stages, F&& f) {
 }
 
 /// out = base + h sum_j a[j][.] slope_j, stage by stage.
-inline void add_stages(int stages, std::span<double> out, std::span<const double> base, double h,
-                       std::span<const double> slopes, const NodeMatrix& a) {
-  with_stages(stages, [&](auto s) {
-    double* to = out.data();
-    const double* from = slopes.data();
-    for (std::size_t n = 0; n < base.size(); ++n, to += s, from += s) {
-      double sum[kMostNodes] = {};
-      for (std::size_t j = 0; j < s; ++j) {
-        for (std::size_t i = 0; i < s; ++i) sum[i] += a[j][i] * from[j];
-      }
-      for (std::size_t i = 0; i < s; ++i) to[i] = base[n] + h * sum[i];
-    }
-  });
-}
+void add_stages(int stages, std::span<double> out, std::span<const double> base, double h,
+                std::span<const double> slopes, const NodeMatrix& a);
 
 /// out = sum_j a[j][.] slope_j, stage by stage.
-inline void combine_stages(int stages, std::span<double> out, std::span<const double> slopes,
-                           const NodeMatrix& a) {
-  with_stages(stages, [&](auto s) {
-    double* to = out.data();
-    const double* from = slopes.data();
-    for (std::size_t n = 0; n < out.size(); n += s, to += s, from += s) {
-      double sum[kMostNodes] = {};
-      for (std::size_t j = 0; j < s; ++j) {
-        for (std::size_t i = 0; i < s; ++i) sum[i] += a[j][i] * from[j];
-      }
-      for (std::size_t i = 0; i < s; ++i) to[i] = sum[i];
-    }
-  });
-}
+void combine_stages(int stages, std::span<double> out, std::span<const double> slopes, const NodeMatrix& a);
 
 /// The same numbers at all stages.
 inline void spread(int stages, std::span<double> out, std::span<const double> numbers) {

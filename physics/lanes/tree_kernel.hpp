@@ -15,6 +15,7 @@
 #include <pantin/physics/constraints/universal.hpp>
 #include <pantin/physics/lanes/lane.hpp>
 #include <pantin/physics/lanes/link_lanes.hpp>
+#include <pantin/physics/lanes/stage_sums.hpp>
 
 namespace pantin::lanes {
 
@@ -276,7 +277,7 @@ class TreeKernel {
 template <class T>
 Kernel kernel_of(InstructionSet set) {
   using K = TreeKernel<T>;
-  return {set, T::kCount, K::work_size, K::outward, K::add_wrench, K::solve, K::free_rates};
+  return {set, T::kCount, K::work_size, K::outward, K::add_wrench, K::solve, K::free_rates, sum_stages<T>};
 }
 
 }  // namespace pantin::lanes

@@ -1,6 +1,7 @@
 #include <pantin/physics/lanes/tree_lanes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <pantin/physics/expects.hpp>
@@ -56,11 +57,16 @@ const Kernel& kernel_for(InstructionSet set) {
 }
 
 const Kernel* kernel_for_stages(std::size_t stages) {
-  const Kernel* widest = nullptr;
-  for (const Kernel* kernel : kernels_here()) {
-    if (stages > 0 && stages % static_cast<std::size_t>(kernel->lanes) == 0) widest = kernel;
-  }
-  return widest;
+  // Asked for at every sweep: found once for each number of stages.
+  static const std::array<const Kernel*, kMostNodes + 1> widest = [] {
+    std::array<const Kernel*, kMostNodes + 1> found{};
+    for (const Kernel* kernel : kernels_here()) {
+      for (auto n = static_cast<std::size_t>(kernel->lanes); n < found.size(); ++n)
+        if (n % static_cast<std::size_t>(kernel->lanes) == 0) found[n] = kernel;
+    }
+    return found;
+  }();
+  return stages < widest.size() ? widest[stages] : nullptr;
 }
 
 namespace {

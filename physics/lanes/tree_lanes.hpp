@@ -10,6 +10,7 @@
 
 #include <pantin/physics/constraints/joint.hpp>
 #include <pantin/physics/constraints/tree.hpp>
+#include <pantin/physics/integrators/collocation.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 
 namespace pantin::lanes {
@@ -73,6 +74,17 @@ struct FreeTask {
   std::size_t first{0};
 };
 
+/// Sums over the stages of many numbers: stage i of number n becomes base[n] + h sum_j a[j][i] slopes_j.
+struct StageSums {
+  std::size_t stages{0};
+  std::size_t count{0};         ///< of numbers
+  const double* base{nullptr};  ///< null: the sum alone, without h
+  double h{0};
+  const double* slopes{nullptr};  ///< number n of stage j at [n * stages + j], as `out`
+  const NodeMatrix* a{nullptr};   ///< by column
+  double* out{nullptr};
+};
+
 /// The kernel for one instruction set.
 struct Kernel {
   InstructionSet set{InstructionSet::Sse2};
@@ -86,6 +98,7 @@ struct Kernel {
   /// Eliminates and substitutes; writes v'.
   void (*solve)(const Task&){nullptr};
   void (*free_rates)(const FreeTask&){nullptr};
+  void (*sum_stages)(const StageSums&){nullptr};
 };
 
 /// The kernel for a set that this machine has.

@@ -1,8 +1,7 @@
-// What chains of pivots cost at an error: rods of 0.2 m and 1 kg on axes that alternate between x and y, the
-// first lifted by a right angle, in one plane or bent by 0.3 rad at every second joint, 1 s under gravity.
-// Error: the greatest distance of a centre of gravity from the same chain solved by gauss16 at 1e-14, which
-// dormand-prince at 1e-13 confirms first. Prints a row a solver and tolerance: error, CPU time, least of
-// several runs, and evaluations of the derivative. Then a long run and extremes.
+// What the chains of chain.hpp cost at an error, 1 s under gravity, by every solver that keeps to a
+// tolerance. Error: the greatest distance of a centre of gravity from the same chain solved by gauss16 at
+// 1e-14, which dormand-prince at 1e-13 confirms first. Prints a row a solver and tolerance: error, CPU time,
+// least of several runs, and evaluations of the derivative. Then a long run and extremes.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,48 +9,12 @@
 #include <vector>
 
 #include "bench/cpu_time.hpp"
-#include "support/mechanisms.hpp"
+#include "bench/own_chain.hpp"
 
-#include <pantin/physics/constraints/pivot.hpp>
-#include <pantin/physics/forces/gravity.hpp>
 #include <pantin/physics/integrators/gauss.hpp>
-#include <pantin/physics/physics_manager.hpp>
 
 namespace pantin::bench {
 namespace {
-
-struct Chain {
-  int links{1};
-  bool bent{false};
-  double tip_mass{1};  ///< of the last rod [kg]
-  double spin{0};      ///< rate of the last joint at the start [rad/s]
-  double duration{1};  ///< [s]
-};
-
-PhysicsManager build(const Chain& chain) {
-  PhysicsManager physics;
-  physics.forces().add(Gravity{.g_W = {0, 0, -9.81}});
-  const Vector3 size{0.02, 0.02, 0.2};
-  const Matrix3 inertia =
-      (size.squaredNorm() * Matrix3::Identity() - Matrix3{size.cwiseAbs2().asDiagonal()}) / 12;
-  BodyId up{};
-  Pose X_WJ{};
-  for (int i = 0; i < chain.links; ++i) {
-    const Vector3 axis = i % 2 == 0 ? Vector3::UnitX() : Vector3::UnitY();
-    const double angle = i == 0 ? std::acos(0.0) : (chain.bent && i % 2 == 1 ? 0.3 : 0);
-    X_WJ.q = (X_WJ.q * Quaternion{Eigen::AngleAxisd{angle, axis}}).normalized();
-    RigidBodySettings rod{.X_WB = X_WJ};
-    const double mass = i == chain.links - 1 ? chain.tip_mass : 1;
-    rod.mass = {mass, {0, 0, -0.1}, mass * inertia};
-    const BodyId id = physics.add(std::move(rod));
-    physics.add(
-        test::joint_here<PivotSettings>(physics, up, id, X_WJ * Pose{Vector3::Zero(), test::facing(axis)}));
-    up = id;
-    X_WJ.p = X_WJ * Vector3{0, 0, -0.2};
-  }
-  if (chain.spin != 0) physics.set_joint_rate(physics.joints().back(), chain.spin);
-  return physics;
-}
 
 struct Outcome {
   std::vector<Vector3> centres{};
@@ -104,7 +67,7 @@ void measure(const Chain& chain) {
 
 /// How far the energy strays over 1000 s, looked at every second.
 void long_run() {
-  PhysicsManager physics = build({5, true});
+  PhysicsManager physics = build(Chain{5, true});
   physics.set_integrator(make_gauss({.stages = 8, .tolerance = 1e-12}));
   const double start = physics.energy().total(), from = cpu_seconds();
   double strays = 0, gap = 0;

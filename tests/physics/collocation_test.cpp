@@ -60,5 +60,18 @@ TEST(Collocation, ContinuesPolynomialsExactly) {
   }
 }
 
+TEST(Collocation, InterpolatesPolynomialsExactly) {
+  // The same from the same start: a shorter step lies on the polynomial of the longer one.
+  const Collocation m = gauss_collocation(4);
+  const NodeMatrix E = interpolation(m, 0.6);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int k = 0; k < 4; ++k) {
+      double sum = 0;
+      for (std::size_t j = 0; j < 4; ++j) sum += E[j][i] * std::pow(m.c[j], k);
+      EXPECT_NEAR(sum, std::pow(0.6 * m.c[i], k), 1e-14);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pantin
