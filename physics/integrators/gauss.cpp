@@ -25,9 +25,9 @@ namespace {
 
 constexpr double kSafety = 0.75, kShrinkMost = 0.2, kGrowMost = 1.5;
 /// Accepted all the same: an error this much over the tolerance, as the estimate is mostly too large.
-constexpr double kOvershoot = 5;
+constexpr double kOvershoot = 2;
 /// The iteration stops where what it would still change is this part of the tolerance.
-constexpr double kIterationShare = 0.3;
+constexpr double kIterationShare = 0.1;
 /// With more sweeps than this a step does not grow; one that needs more than the second number is halved.
 constexpr int kCheapSweeps = 8, kMostSweeps = 16;
 /// Where the step is given, as many as it takes.

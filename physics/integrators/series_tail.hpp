@@ -15,14 +15,11 @@ struct SeriesTail {
 
 /// From the sizes of the last four coefficients, the last one first; sizes up to `noise` are rounding.
 [[nodiscard]] inline SeriesTail tail_of(const std::array<double, 4>& sizes, int stages, double noise) {
-  // Of coefficient 2 s, what the quadrature makes of it: |sum b_i P_2s(c_i)| is 0.29 for four stages and 0.21
-  // for eight.
-  constexpr double kLeftOut = 0.25;
   // Every other coefficient may vanish by symmetry: two neighbours against the two before them.
   const double last = std::max(sizes[0], sizes[1]);
   if (last <= noise) return {};
   const double decay = std::sqrt(last / std::max({sizes[2], sizes[3], noise}));
-  const double missing = kLeftOut * std::pow(std::min(decay, 1.0), stages + 1);
+  const double missing = std::pow(std::min(decay, 1.0), stages + 1);
   if (stages == 1 || sizes[0] >= decay * sizes[1]) return {missing, 0};
   return {missing * decay, 1};
 }

@@ -184,11 +184,11 @@ TEST_P(InstantiateRefuses, ByNameAndLeavesPhysicsAsItWas) {
 
 INSTANTIATE_TEST_SUITE_P(
     Instantiate, InstantiateRefuses,
-    testing::Values(
-        Unsupported{"Contacts", [](json& p) { p["contacts"] = good()["contacts"]; },
-                    "/contacts/0: error: contact sphere_plane: physics has no contacts yet; leave it out if "
-                    "the bodies "
-                    "never touch"}),
+    testing::Values(Unsupported{
+        "Contacts", [](json& p) { p["contacts"] = good()["contacts"]; },
+        "/contacts/0: error: contact sphere_plane: physics has no contacts yet; leave it out if "
+        "the bodies "
+        "never touch"}),
     [](const auto& test) { return std::string{test.param.name}; });
 
 /// A joint of type ball between bob and rod, given at a place of the world.
