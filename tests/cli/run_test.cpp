@@ -117,7 +117,7 @@ TEST(Run, TakesTheIntegratorAskedFor) {
 TEST(Run, StridesFromSampleToSample) {
   // A stone under gravity is a parabola, which gauss8 follows in any step: with --adaptive two samples take
   // two updates, without it 200 steps of 0.01 s.
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("stone.urdf", kStoneUrdf);
   std::vector<std::string> arguments{
       file,   "--floating-base", "--simulate", "all",          "--duration", "2", "--every", "1", "--step",
