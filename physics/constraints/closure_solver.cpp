@@ -10,9 +10,11 @@ namespace {
 
 using kernel::dot;
 
-/// mu for scaled rows. Directions in which a loop is nearer to singular than some 3e-5 rad are let go, which
-/// keeps rounding from being multiplied without end; inertia carries the mechanism through.
-constexpr double kProximal = 1e-9;
+/// mu for scaled rows. Directions in which a loop is nearer to singular than some 1e-5 rad are let go, which
+/// keeps rounding from being multiplied without end; inertia carries the mechanism through. Ten times more
+/// costs short steps accuracy there (1e-7 m where bars of a chain of four-bars are in line), ten times less
+/// costs long steps theirs (1e-4 m).
+constexpr double kProximal = 1e-10;
 /// Pivots below are those of rows that others make redundant.
 constexpr double kRedundant = 100 * kProximal;
 constexpr int kRefinements = 4;
