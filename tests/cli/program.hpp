@@ -51,7 +51,16 @@ class Running {
     std::vector<char*> argv{program.data()};
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
-    if (posix_spawn(&child_, program.c_str(), &actions, nullptr, argv.data(), environ) != 0) child_ = 0;
+    // Whoever started the tests may have signals ignored, as nohup does; the program shall meet them afresh.
+    sigset_t afresh;
+    sigemptyset(&afresh);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&afresh, signal);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &afresh);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    if (posix_spawn(&child_, program.c_str(), &actions, &attributes, argv.data(), environ) != 0) child_ = 0;
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
   }
 
