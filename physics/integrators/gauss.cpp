@@ -24,8 +24,9 @@ namespace pantin {
 namespace {
 
 constexpr double kSafety = 0.75, kShrinkMost = 0.2, kGrowMost = 1.5;
-/// Accepted all the same: an error this much over the tolerance, as the estimate is mostly too large.
-constexpr double kOvershoot = 2;
+/// Steps are chosen for this part of the tolerance, since errors of long runs add up, and accepted up to this
+/// multiple of that.
+constexpr double kAim = 0.1, kOvershoot = 2;
 /// The iteration stops where what it would still change is this part of the tolerance.
 constexpr double kIterationShare = 0.1;
 /// With more sweeps than this a step does not grow; one that needs more than the second number is halved.
@@ -179,11 +180,11 @@ class Gauss final : public ControlledIntegrator {
     const bool grows = sweeps <= kCheapSweeps && refused_.h == 0;
     const double error = estimate(h, q, v);
     refused_.settled = std::isfinite(error);
-    return decide(error, {.order = 2.0 * settings_.stages,
-                          .safety = kSafety,
-                          .shrink_most = kShrinkMost,
-                          .grow_most = grows ? kGrowMost : 1,
-                          .overshoot = kOvershoot});
+    return decide(error / kAim, {.order = 2.0 * settings_.stages,
+                                 .safety = kSafety,
+                                 .shrink_most = kShrinkMost,
+                                 .grow_most = grows ? kGrowMost : 1,
+                                 .overshoot = kOvershoot});
   }
 
   /// Error per unit time.
