@@ -91,8 +91,8 @@ AdvanceReport Bridge::Impl::run_due() {
 }
 
 std::optional<double> Bridge::Impl::next_update() const {
-  const bool strides = clock.settings().stepping == Stepping::Adaptive &&
-                       std::isfinite(physics.integrator().tolerance()) && physics.particles().size() == 0;
+  const bool strides = clock.settings().stepping == Stepping::Adaptive && physics.holds_tolerance() &&
+                       physics.particles().size() == 0;
   return strides ? clock.next_stop() : clock.next();
 }
 

@@ -7,14 +7,17 @@
 
 namespace pantin {
 
-void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v) {
+void PhysicsManager::Impl::integrate(StepGroup& group, Dynamics& system, double h, std::span<double> q,
+                                     std::span<double> v) {
   const double t = bodies.state.time;
-  integrator->record_into(keeps_motion ? &motion : nullptr);
-  if (!keeps_motion) return integrator->step(system, t, h, q, v);
+  if (!keeps_motion) return group.integrator->step(system, t, h, q, v);
+  MotionRecord& motion = group.motion;
   start.assign(q.begin(), q.end());
   start.insert(start.end(), v.begin(), v.end());
   const std::size_t parts = motion.parts();
-  integrator->step(system, t, h, q, v);
+  group.integrator->record_into(&motion);
+  group.integrator->step(system, t, h, q, v);
+  group.integrator->record_into(nullptr);
   if (motion.parts() > parts) return;
   // The integrator has no interpolant: a cubic between the ends.
   const std::span<const double> q0 = std::span{start}.first(q.size()), v0 = std::span{start}.last(v.size());
@@ -32,33 +35,39 @@ void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<doubl
   MotionRecord::fit_cubic(part, h);
 }
 
-const std::vector<BodyKinematics>& WorldDynamics::kinematics_at(Instant at, std::span<const double> q,
-                                                                std::span<const double> v) {
+void WorldDynamics::place(Instant at, std::span<const double> q, std::span<const double> v) {
   place_grounds(at);
   place_free(q, v, {});
   place_trees(at, q, v);
-  return stage_;
 }
 
 void PhysicsManager::keep_motion(bool keep) {
   impl_->keeps_motion = keep;
-  if (!keep) impl_->motion.clear();
+  if (keep) return;
+  for (StepGroup& group : impl_->groups) group.motion.clear();
 }
 
 std::vector<BodyKinematics> PhysicsManager::motion_at(double t) {
   Impl& world = *impl_;
-  PANTIN_EXPECTS(world.keeps_motion && !world.motion.empty(),
+  const bool is_kept = world.keeps_motion && !world.groups.empty() && !world.groups.front().motion.empty();
+  PANTIN_EXPECTS(is_kept,
                  "no motion inside a step is kept; call keep_motion(true) before a step that goes well");
   PANTIN_EXPECTS(world.motion_topology == world.bodies.state.topology,
                  "bodies, joints or kinds have changed since the last step; ask before they change");
-  const double begin = world.motion.begin(), end = world.motion.end(), slack = 1e-9 * (end - begin);
+  const MotionRecord& motion = world.groups.front().motion;
+  const double begin = motion.begin(), end = motion.end(), slack = 1e-9 * (end - begin);
   PANTIN_EXPECTS(t >= begin - slack && t <= end + slack,
                  "time " + text_of(t) + " s is not inside the last step, which went from " + text_of(begin) +
                      " to " + text_of(end) + " s");
   const double inside = std::clamp(t, begin, end);
-  std::vector<double> q(world.dynamics.coordinates()), v(world.dynamics.velocities());
-  world.motion.evaluate(inside, q, v);
-  return world.dynamics.kinematics_at({inside, Side::Before}, q, v);
+  std::vector<double> q, v;
+  for (StepGroup& group : world.groups) {
+    q.resize(group.dynamics->coordinates());
+    v.resize(group.dynamics->velocities());
+    group.motion.evaluate(std::min(inside, group.motion.end()), q, v);
+    group.dynamics->place({inside, Side::Before}, q, v);
+  }
+  return world.room.stage;
 }
 
 }  // namespace pantin

@@ -38,15 +38,14 @@ void take_stage(std::span<const double> all, std::size_t stages, std::size_t sta
 
 void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
   if (lane_.fits) return;
-  const TreeLayout& layout = constraints_.layout();
-  lanes::fill_constants(layout, bodies_, lane_.links, lane_.free);
+  lanes::fill_constants(layout_, bodies_, lane_.links, lane_.free);
   const auto count = static_cast<std::size_t>(kernel.lanes);
   std::size_t given = 0, largest = 0;
   for (const lanes::LinkConstants& link : lane_.links) {
     given = std::max(
         {given, static_cast<std::size_t>(link.ground + 1), static_cast<std::size_t>(link.given + 1)});
   }
-  for (const Tree& tree : layout.trees) {
+  for (const Tree& tree : layout_.trees) {
     largest =
         std::max(largest, kernel.work_size(tree.links_end - tree.links_begin, tree.v_end - tree.v_begin));
   }
@@ -67,10 +66,9 @@ void WorldDynamics::rates(const Stages& stages) {
     kernel->free_rates({lane_.free.data(), lane_.free.size(), stages.q.data(), stages.v.data(),
                         stages.q_dot.data(), count, first});
   }
-  const TreeLayout& layout = constraints_.layout();
-  const std::size_t q0 = (stages.q.size() / count - layout.coordinates) * count,
-                    v0 = (stages.v.size() / count - layout.rates) * count;
-  for (const TreeLink& link : layout.links) {
+  const std::size_t q0 = (stages.q.size() / count - layout_.coordinates) * count,
+                    v0 = (stages.v.size() / count - layout_.rates) * count;
+  for (const TreeLink& link : layout_.links) {
     const double *q = stages.q.data() + q0 + link.q * count, *v = stages.v.data() + v0 + link.v * count;
     double* out = stages.q_dot.data() + q0 + link.q * count;
     with_model(link, [&](auto model) {
@@ -94,12 +92,12 @@ void WorldDynamics::derivatives(const Stages& stages) {
   const std::size_t count = stages.at.size();
   const lanes::Kernel* kernel = lanes::kernel_for_stages(count);
   // Loops couple the rates of a tree stage by stage.
-  const bool in_lanes = uses_lanes && kernel != nullptr && constraints_.layout().closures.empty();
+  const bool in_lanes = uses_lanes && kernel != nullptr && layout_.closures.empty();
   if (!in_lanes) return Dynamics::derivatives(stages);
   rates(stages);
   evaluations += static_cast<int>(count);
   const bool plain = also == nullptr && !bodies_.state.loaded;
-  const std::optional<Vector3> uniform = plain ? forces_.uniform_acceleration() : std::nullopt;
+  const std::optional<Vector3> uniform = plain ? laws().uniform_acceleration() : std::nullopt;
   if (uniform) free_forces(stages, *uniform);
   for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(kernel->lanes)) {
     lane_group(stages, *kernel, first, uniform);
@@ -116,10 +114,9 @@ void WorldDynamics::free_forces(const Stages& stages, const Vector3& g_W) {
 }
 
 void WorldDynamics::given_motions(const Stages& stages, std::size_t first, std::size_t count) {
-  const TreeLayout& layout = constraints_.layout();
   for (std::size_t i = 0; i < lane_.links.size(); ++i) {
     const lanes::LinkConstants& c = lane_.links[i];
-    const TreeLink& link = layout.links[i];
+    const TreeLink& link = layout_.links[i];
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Instant& at = stages.at[first + lane];
       const auto to = [&](std::int32_t number) {
@@ -141,13 +138,12 @@ void WorldDynamics::given_motions(const Stages& stages, std::size_t first, std::
 
 void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,
                                const std::optional<Vector3>& uniform) {
-  const TreeLayout& layout = constraints_.layout();
   const std::size_t count = stages.at.size(), lanes = static_cast<std::size_t>(kernel.lanes);
   if (!lane_.motions.empty()) given_motions(stages, first, lanes);
   lanes::Task task{.links = lane_.links.data(),
-                   .q = stages.q.data() + (stages.q.size() / count - layout.coordinates) * count,
-                   .v = stages.v.data() + (stages.v.size() / count - layout.rates) * count,
-                   .v_dot = stages.v_dot.data() + (stages.v.size() / count - layout.rates) * count,
+                   .q = stages.q.data() + (stages.q.size() / count - layout_.coordinates) * count,
+                   .v = stages.v.data() + (stages.v.size() / count - layout_.rates) * count,
+                   .v_dot = stages.v_dot.data() + (stages.v.size() / count - layout_.rates) * count,
                    .stages = count,
                    .first = first,
                    .motions = lane_.motions.data(),
@@ -162,7 +158,7 @@ void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel
       collect_wrenches(stages, first, lane, lanes);
     }
   }
-  for (const Tree& tree : layout.trees) {
+  for (const Tree& tree : layout_.trees) {
     task.begin = tree.links_begin, task.end = tree.links_end;
     kernel.outward(task);
     for (std::uint32_t l = tree.links_begin; !uniform && l < tree.links_end; ++l) {
@@ -187,13 +183,12 @@ void WorldDynamics::collect_wrenches(const Stages& stages, std::size_t first, st
     for (int k = 0; k < 6; ++k, out += stages.at.size())
       *out = k < 3 ? wrenches_[i].force[k] : wrenches_[i].torque[k - 3];
   }
-  const TreeLayout& layout = constraints_.layout();
-  for (std::size_t l = 0; l < layout.links.size(); ++l) {
-    const LinkWork& work = constraints_.kernel().link(static_cast<std::int32_t>(l));
+  for (std::size_t l = 0; l < layout_.links.size(); ++l) {
+    const LinkWork& work = kernel_.link(static_cast<std::int32_t>(l));
     const Vector3 p{work.p.x, work.p.y, work.p.z};
     double* to = lane_.wrenches.data() + l * 6 * count + lane;
-    for (std::uint32_t m = layout.links[l].members_begin; m < layout.links[l].members_end; ++m) {
-      const std::uint32_t i = layout.members[m].body;
+    for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
+      const std::uint32_t i = layout_.members[m].body;
       const Vector3 torque = wrenches_[i].torque + (stage_[i].p_WBcm - p).cross(wrenches_[i].force);
       for (std::size_t k = 0; k < 3; ++k) {
         to[k * count] += wrenches_[i].force[static_cast<Eigen::Index>(k)];

@@ -85,40 +85,38 @@ double WorldDynamics::free_error(std::span<const double> q_all, std::span<const 
 
 double WorldDynamics::tree_error(std::span<const double> q, std::span<const double> q_error,
                                  std::span<const double> v_error, double h) {
-  const TreeLayout& layout = constraints_.layout();
-  if (layout.links.empty()) return 0;
-  const double* q0 = q.data() + (q.size() - layout.coordinates);
-  const double* dq = q_error.data() + (q_error.size() - layout.coordinates);
-  const std::span<const double> dv = v_error.last(layout.rates);
+  if (layout_.links.empty()) return 0;
+  const double* q0 = q.data() + (q.size() - layout_.coordinates);
+  const double* dq = q_error.data() + (q_error.size() - layout_.coordinates);
+  const std::span<const double> dv = v_error.last(layout_.rates);
   // Three motions of every link: as driven parts alone move it, and with either error on top.
-  error_rates_.assign(3 * layout.rates, 0.0);
-  const std::span<double> still{error_rates_.data(), layout.rates};
-  const std::span<double> by_q{error_rates_.data() + layout.rates, layout.rates};
-  const std::span<double> by_v{error_rates_.data() + 2 * layout.rates, layout.rates};
-  for (const TreeLink& link : layout.links) {
+  error_rates_.assign(3 * layout_.rates, 0.0);
+  const std::span<double> still{error_rates_.data(), layout_.rates};
+  const std::span<double> by_q{error_rates_.data() + layout_.rates, layout_.rates};
+  const std::span<double> by_v{error_rates_.data() + 2 * layout_.rates, layout_.rates};
+  for (const TreeLink& link : layout_.links) {
     with_model(link, [&](auto model) { rates_of(model, q0 + link.q, dq + link.q, by_q.data() + link.v); });
   }
-  for (std::size_t j = 0; j < layout.rates; ++j) by_v[j] = h * dv[j];
+  for (std::size_t j = 0; j < layout_.rates; ++j) by_v[j] = h * dv[j];
 
   Greatest error;
   const Instant now{bodies_.state.time, Side::After};
-  Articulated& kernel = constraints_.kernel();
-  for (const Tree& tree : layout.trees) {
+  for (const Tree& tree : layout_.trees) {
     if (tree.has_closures()) {
       // Near singular positions the way out of the loop is full of noise, and is settled away.
-      const TreeView view{layout, tree, kernel, grounds_, now};
-      constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_q);
-      constraints_.loops().make_tangential(view, q.last(layout.coordinates), by_v);
+      const TreeView view{layout_, tree, kernel_, grounds_, now};
+      loops_.make_tangential(view, q.last(layout_.coordinates), by_q);
+      loops_.make_tangential(view, q.last(layout_.coordinates), by_v);
     }
-    base_.assign(layout.links.size(), LinkMotion{});
-    if (tree.follows_driver) kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), still);
+    base_.assign(layout_.links.size(), LinkMotion{});
+    if (tree.follows_driver) kernel_.place(layout_, tree, grounds_, now, q.last(layout_.coordinates), still);
     for (std::uint32_t i = tree.links_begin; tree.follows_driver && i < tree.links_end; ++i) {
-      const LinkWork& link = kernel.link(static_cast<std::int32_t>(i));
+      const LinkWork& link = kernel_.link(static_cast<std::int32_t>(i));
       base_[i] = {link.v, link.w};
     }
     for (const std::span<const double> rates :
          {std::span<const double>{by_q}, std::span<const double>{by_v}}) {
-      kernel.place(layout, tree, grounds_, now, q.last(layout.coordinates), rates);
+      kernel_.place(layout_, tree, grounds_, now, q.last(layout_.coordinates), rates);
       for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) count_link(i, error.value);
     }
   }
@@ -126,13 +124,12 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
 }
 
 void WorldDynamics::count_link(std::uint32_t i, double& greatest) const {
-  const TreeLayout& layout = constraints_.layout();
-  const LinkWork& link = constraints_.kernel().link(static_cast<std::int32_t>(i));
+  const LinkWork& link = kernel_.link(static_cast<std::int32_t>(i));
   const kernel::Vec3<double> v = link.v - base_[i].v, w = link.w - base_[i].w;
   Greatest error{greatest};
   error.count(std::sqrt(dot(w, w)));
-  for (std::uint32_t m = layout.links[i].members_begin; m < layout.links[i].members_end; ++m) {
-    const TreeMember& member = layout.members[m];
+  for (std::uint32_t m = layout_.links[i].members_begin; m < layout_.links[i].members_end; ++m) {
+    const TreeMember& member = layout_.members[m];
     const Vector3 c = member.X_LB * bodies_.mass[member.body].p_BBcm;
     const kernel::Vec3<double> of_cm = v + cross(w, link.R * kernel::Vec3<double>{c.x(), c.y(), c.z()});
     error.count(std::sqrt(dot(of_cm, of_cm)));
@@ -147,13 +144,12 @@ void WorldDynamics::weights(std::span<double> q_weight, std::span<double> v_weig
     for (int k = 0; k < 6; ++k) wv[k] = k < 3 ? 1 / bodies_.mass[i].mass : bodies_.inverse_inertia[i].norm();
     wq += 7, wv += 6;
   }
-  const TreeLayout& layout = constraints_.layout();
   // From the leaves: how far a body may be from the origin of a link.
-  reach_.assign(layout.links.size(), 0.0);
-  for (std::size_t i = layout.links.size(); i-- > 0;) {
-    const TreeLink& link = layout.links[i];
+  reach_.assign(layout_.links.size(), 0.0);
+  for (std::size_t i = layout_.links.size(); i-- > 0;) {
+    const TreeLink& link = layout_.links[i];
     for (std::uint32_t m = link.members_begin; m < link.members_end; ++m) {
-      const TreeMember& member = layout.members[m];
+      const TreeMember& member = layout_.members[m];
       reach_[i] = std::max(reach_[i], (member.X_LB * bodies_.mass[member.body].p_BBcm).norm());
     }
     with_model(link, [&](auto model) {
@@ -161,7 +157,7 @@ void WorldDynamics::weights(std::span<double> q_weight, std::span<double> v_weig
       if (link.parent < 0) return;
       kernel::Mat3<double> R;
       kernel::Vec3<double> p;
-      if (link.driver == nullptr) model.place(bodies_.state.coordinates.data() + link.q, R, p);
+      if (link.driver == nullptr) model.place(trees_before_.data() + link.q, R, p);
       double& above = reach_[static_cast<std::size_t>(link.parent)];
       above = std::max(above, reach_[i] + link.X_PJ.p.norm() + std::sqrt(dot(p, p)));
     });

@@ -38,6 +38,7 @@ void PhysicsManager::remove(BodyId id) {
   impl_->forces.remove_laws_of(id);
   impl_->deflectors.remove_deflectors_of(id);
   impl_->particles.remove_all_of(id);
+  impl_->forget_integrator_of(id);
   impl_->constraints.stale(impl_->bodies);
   impl_->bodies.remove(id);
 }
@@ -243,12 +244,6 @@ ParticleManager& PhysicsManager::particles() noexcept { return impl_->particles;
 const ParticleManager& PhysicsManager::particles() const noexcept { return impl_->particles; }
 DeflectorManager& PhysicsManager::deflectors() noexcept { return impl_->deflectors; }
 const DeflectorManager& PhysicsManager::deflectors() const noexcept { return impl_->deflectors; }
-
-void PhysicsManager::set_integrator(std::unique_ptr<Integrator> integrator) {
-  PANTIN_EXPECTS(integrator != nullptr, "no integrator given; known names are those of integrator_names()");
-  impl_->integrator = std::move(integrator);
-  impl_->particles.integrator_of_bodies_changed();
-}
 
 const Integrator& PhysicsManager::integrator() const noexcept { return *impl_->integrator; }
 

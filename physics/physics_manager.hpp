@@ -13,6 +13,7 @@
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/island_group.hpp>
 #include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/state.hpp>
@@ -112,8 +113,21 @@ class PhysicsManager {
   [[nodiscard]] const ParticleManager& particles() const noexcept;
   [[nodiscard]] DeflectorManager& deflectors() noexcept;
   [[nodiscard]] const DeflectorManager& deflectors() const noexcept;
+
+  // Integrators
+  /// Of all bodies, but for islands with one of their own. An integrator that chooses its own steps does so
+  /// for each island by itself: simulated bodies that joints or laws couple. Free bodies that no law names go
+  /// together, and so do all islands where there are more than 32, since for each of them the force laws are
+  /// asked about all bodies. An integrator that takes the steps it is asked for advances all together.
   void set_integrator(std::unique_ptr<Integrator> integrator);
-  [[nodiscard]] const Integrator& integrator() const noexcept;  ///< "rk4" unless set
+  /// Of the island of a body, as long as the body is simulated; null = that of all. Where bodies of one island
+  /// ask for different ones, the one that was set last wins.
+  void set_integrator(BodyId body, std::unique_ptr<Integrator> integrator);
+  [[nodiscard]] const Integrator& integrator() const noexcept;  ///< of all; "rk4" unless set
+  /// Whether all integrators set for bodies hold a tolerance, so that a step may be as long as one likes.
+  [[nodiscard]] bool holds_tolerance() const noexcept;
+  /// What is integrated together, by what, why so, and at what cost in the last step.
+  [[nodiscard]] std::vector<IslandGroup> islands();
 
   // Time
   [[nodiscard]] double time() const noexcept;  ///< [s]

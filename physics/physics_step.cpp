@@ -39,10 +39,7 @@ StepReport PhysicsManager::step(double h) {
   world.particles.begin_step();
 
   StepReport report;
-  world.dynamics.evaluations = 0;
-  world.dynamics.loop_margin = 1;
-  world.inner = {};
-  world.motion.clear();
+  world.begin_groups();
   world.motion_topology = state.topology;
   for (bool done = false; !done; ++report.updates) {
     const double stop = world.next_break(state.time);
@@ -52,7 +49,7 @@ StepReport PhysicsManager::step(double h) {
     if (!world.update(part)) {
       report = world.failure();
       if (keeps) world.go_back(cut);
-      world.motion.clear();
+      for (StepGroup& group : world.groups) group.motion.clear();
       return report;
     }
     state.at_break = stop < end + slack;
@@ -67,11 +64,7 @@ StepReport PhysicsManager::step(double h) {
   world.apply_impulses();
   world.list_moved();
   report.time = state.time;
-  report.evaluations = world.dynamics.evaluations;
-  report.loop_margin = world.dynamics.loop_margin;
-  report.inner_steps = world.inner.accepted;
-  report.refused_steps = world.inner.refused;
-  report.shortest_step = world.inner.shortest;
+  world.add_counts(report);
   report.moved = world.moved.size();
   report.energy = world.energy();
   report.particles = world.particles.finish_step();
@@ -125,31 +118,8 @@ void PhysicsManager::Impl::pass_break() {
 }
 
 bool PhysicsManager::Impl::update(double h) {
-  dynamics.begin();
   const double t = bodies.state.time;
-  StepControl* control = integrator->control();
-  if (control != nullptr) std::swap(control->memory, bodies.state.memory);
-  if (Dynamics* both = particles.begin_update()) {
-    integrate(*both, h, particles.coordinates_now(), particles.velocities_now());
-    particles.bodies_have_moved();
-  } else {
-    integrate(dynamics, h, dynamics.coordinates_now(), dynamics.velocities_now());
-  }
-  if (control != nullptr) note_control(*control);
-  if (dynamics.first_not_finite() >= 0 || dynamics.open_loop().joint >= 0) {
-    bodies.state.memory = {};
-    return false;
-  }
-  dynamics.write_back(t + h);
-  return particles.update(t, h, *integrator);
-}
-
-void PhysicsManager::Impl::note_control(StepControl& control) {
-  std::swap(control.memory, bodies.state.memory);
-  const bool first = inner.accepted == 0;
-  inner.accepted += control.accepted;
-  inner.refused += control.refused;
-  inner.shortest = first ? control.shortest : std::min(inner.shortest, control.shortest);
+  return integrate(h) && particles.update(t, h, *integrator);
 }
 
 void PhysicsManager::Impl::apply_impulses() {
@@ -189,7 +159,7 @@ StepReport PhysicsManager::Impl::failure(const OpenLoop& open) const {
   StepReport report;
   report.status = StepStatus::LoopOpen;
   report.time = bodies.state.time;
-  report.evaluations = dynamics.evaluations;
+  add_counts(report);
   report.message =
       "after " + std::to_string(bodies.state.time) + " s " + problem.text + "; " + problem.remedy;
   return report;
@@ -199,7 +169,7 @@ StepReport PhysicsManager::Impl::failure() const {
   StepReport report;
   report.status = StepStatus::NotFinite;
   report.time = bodies.state.time;
-  report.evaluations = dynamics.evaluations;
+  add_counts(report);
   if (const ParticleId particle = particles.not_finite()) {
     report.particle = particle;
     report.message = "after " + std::to_string(bodies.state.time) + " s the motion of particle " +
@@ -208,8 +178,9 @@ StepReport PhysicsManager::Impl::failure() const {
                      "' is no longer finite; take a smaller step, or look for a force that is not finite";
     return report;
   }
-  const std::int32_t i = dynamics.first_not_finite();
-  if (i < 0) return failure(dynamics.open_loop());
+  const WorldDynamics& culprit = *groups[failed_group].dynamics;
+  const std::int32_t i = culprit.first_not_finite();
+  if (i < 0) return failure(culprit.open_loop());
   const auto position = static_cast<std::size_t>(i);
   report.body = bodies.ids[position];
   const bool joined = constraints.layout().link_of_body[position] >= 0;

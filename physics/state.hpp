@@ -23,7 +23,8 @@ struct State {
   std::uint64_t topology{0};    ///< which set of bodies, joints and kinds it fits
   double time{0};               ///< [s]
   double time_compensation{0};  ///< what rounding has kept back from `time` [s]
-  StepMemory memory{};          ///< of an integrator that chooses its own steps
+  std::uint64_t groups{0};      ///< what `memories` belong to: which islands are stepped together, by what
+  std::vector<StepMemory> memories{};  ///< of integrators that choose their own steps, by group of islands
   bool at_break{false};         ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
   std::vector<BodyKinematics>

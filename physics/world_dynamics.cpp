@@ -11,52 +11,7 @@ namespace {
 
 constexpr std::size_t kFreeCoordinates = 7, kFreeVelocities = 6;
 
-void write(const BodyState& s, double* q, double* v) {
-  q[0] = s.p_WBcm.x(), q[1] = s.p_WBcm.y(), q[2] = s.p_WBcm.z();
-  q[3] = s.q_WB.w(), q[4] = s.q_WB.x(), q[5] = s.q_WB.y(), q[6] = s.q_WB.z();
-  for (int i = 0; i < 3; ++i) v[i] = s.linear_momentum[i], v[3 + i] = s.angular_momentum[i];
-}
-
-BodyState read(const double* q, const double* v) {
-  return {{q[0], q[1], q[2]}, Quaternion{q[3], q[4], q[5], q[6]}, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
-}
-
 }  // namespace
-
-void WorldDynamics::begin() {
-  const TreeLayout& layout = constraints_.layout();
-  q_.resize(kFreeCoordinates * layout.free_bodies.size() + layout.coordinates);
-  v_.resize(kFreeVelocities * layout.free_bodies.size() + layout.rates);
-  open_loop_ = {};
-  stage_ = bodies_.state.kinematics;
-  wrenches_.resize(bodies_.size());
-  has_animated_ =
-      std::find(bodies_.kinds.begin(), bodies_.kinds.end(), BodyKind::Animated) != bodies_.kinds.end();
-  constraints_.ground_motions(bodies_, {bodies_.state.time, Side::After}, grounds_);
-  lane_.fits = false;
-}
-
-std::span<double> WorldDynamics::coordinates_now() {
-  double* q = q_.data();
-  double unused[kFreeVelocities];
-  for (const std::uint32_t i : free_bodies()) {
-    write(bodies_.state.bodies[i], q, unused);
-    q += kFreeCoordinates;
-  }
-  std::copy(bodies_.state.coordinates.begin(), bodies_.state.coordinates.end(), q);
-  return q_;
-}
-
-std::span<double> WorldDynamics::velocities_now() {
-  double* v = v_.data();
-  double unused[kFreeCoordinates];
-  for (const std::uint32_t i : free_bodies()) {
-    write(bodies_.state.bodies[i], unused, v);
-    v += kFreeVelocities;
-  }
-  std::copy(bodies_.state.rates.begin(), bodies_.state.rates.end(), v);
-  return v_;
-}
 
 void WorldDynamics::place_free(std::span<const double> q_all, std::span<const double> v_all,
                                std::span<double> q_dot) {
@@ -85,7 +40,7 @@ void WorldDynamics::place_free(std::span<const double> q_all, std::span<const do
 }
 
 void WorldDynamics::place_grounds(Instant at) {
-  if (!has_animated_) return;
+  if (!room_.has_animated) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_.kinds[i] != BodyKind::Animated) continue;
     const RigidMotion m = bodies_.drivers[i]->motion(at.t, at.side);
@@ -100,20 +55,18 @@ void WorldDynamics::place_grounds(Instant at) {
 }
 
 void WorldDynamics::place_trees(Instant at, std::span<const double> q, std::span<const double> v) {
-  const TreeLayout& layout = constraints_.layout();
-  for (const Tree& tree : layout.trees) {
-    constraints_.kernel().place(layout, tree, grounds_, at, q.last(layout.coordinates), v.last(layout.rates));
-    constraints_.kernel().write_members(layout, tree, bodies_.mass, stage_);
+  for (const Tree& tree : layout_.trees) {
+    kernel_.place(layout_, tree, grounds_, at, q.last(layout_.coordinates), v.last(layout_.rates));
+    kernel_.write_members(layout_, tree, bodies_.mass, stage_);
   }
 }
 
 void WorldDynamics::tree_rates(std::span<const double> q, std::span<const double> v,
                                std::span<double> q_dot) const {
-  const TreeLayout& layout = constraints_.layout();
-  const double* q0 = q.data() + (q.size() - layout.coordinates);
-  const double* v0 = v.data() + (v.size() - layout.rates);
-  double* out = q_dot.data() + (q_dot.size() - layout.coordinates);
-  for (const TreeLink& link : layout.links) {
+  const double* q0 = q.data() + (q.size() - layout_.coordinates);
+  const double* v0 = v.data() + (v.size() - layout_.rates);
+  double* out = q_dot.data() + (q_dot.size() - layout_.coordinates);
+  for (const TreeLink& link : layout_.links) {
     with_model(link, [&](auto model) { model.rate(q0 + link.q, v0 + link.v, out + link.q); });
   }
 }
@@ -132,7 +85,7 @@ void WorldDynamics::gather_wrenches(Instant at) {
                         .mass = bodies_.mass,
                         .kind = bodies_.kinds,
                         .position_of = bodies_.position_of};
-  forces_.gather(bodies, wrenches_);
+  laws().gather(bodies, wrenches_);
   if (also != nullptr) also->add_wrenches(bodies, wrenches_);
 }
 
@@ -149,21 +102,19 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
     for (int k = 0; k < 3; ++k) out[k] = wrenches_[i].force[k], out[3 + k] = wrenches_[i].torque[k];
     out += kFreeVelocities;
   }
-  const TreeLayout& layout = constraints_.layout();
-  Articulated& kernel = constraints_.kernel();
-  for (const Tree& tree : layout.trees) {
-    kernel.load(layout, tree);
+  for (const Tree& tree : layout_.trees) {
+    kernel_.load(layout_, tree);
     for (std::uint32_t l = tree.links_begin; l < tree.links_end; ++l) {
-      for (std::uint32_t m = layout.links[l].members_begin; m < layout.links[l].members_end; ++m) {
-        const std::uint32_t i = layout.members[m].body;
-        kernel.add_wrench(static_cast<std::int32_t>(l), wrenches_[i].force, wrenches_[i].torque,
+      for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
+        const std::uint32_t i = layout_.members[m].body;
+        kernel_.add_wrench(static_cast<std::int32_t>(l), wrenches_[i].force, wrenches_[i].torque,
                           stage_[i].p_WBcm);
       }
     }
-    if (tree.has_closures()) ClosureSolver::add_damping(layout, tree, kernel, grounds_, at);
-    kernel.eliminate(layout, tree, v.last(layout.rates));
-    kernel.substitute(layout, tree, v_dot.last(layout.rates));
-    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout.rates));
+    if (tree.has_closures()) ClosureSolver::add_damping(layout_, tree, kernel_, grounds_, at);
+    kernel_.eliminate(layout_, tree, v.last(layout_.rates));
+    kernel_.substitute(layout_, tree, v_dot.last(layout_.rates));
+    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout_.rates));
   }
 }
 
@@ -194,8 +145,8 @@ void WorldDynamics::settle(Instant at, std::span<double> q_all, std::span<double
     }
     q += kFreeCoordinates;
   }
-  const double* before = bodies_.state.coordinates.data();
-  for (const TreeLink& link : constraints_.layout().links) {
+  const double* before = trees_before_.data();
+  for (const TreeLink& link : layout_.links) {
     with_model(link, [&](auto model) {
       using Model = decltype(model);
       if (!std::equal(q + link.q, q + link.q + Model::kCoordinates, before + link.q))
@@ -203,91 +154,30 @@ void WorldDynamics::settle(Instant at, std::span<double> q_all, std::span<double
     });
   }
   if (has_constraints()) {
-    const TreeLayout& layout = constraints_.layout();
-    settle_loops(at, q_all.last(layout.coordinates), v_all.last(layout.rates));
+    settle_loops(at, q_all.last(layout_.coordinates), v_all.last(layout_.rates));
   }
 }
 
 bool WorldDynamics::acceleration_depends_on_velocity() const {
-  return !constraints_.layout().links.empty() || forces_.depends_on_velocity();
-}
-
-std::int32_t WorldDynamics::first_not_finite() const {
-  const auto bad = [](const double* begin, std::size_t n) {
-    return !std::all_of(begin, begin + n, [](double x) { return std::isfinite(x); });
-  };
-  const double *q = q_.data(), *v = v_.data();
-  for (const std::uint32_t i : free_bodies()) {
-    if (bad(q, kFreeCoordinates) || bad(v, kFreeVelocities)) return static_cast<std::int32_t>(i);
-    q += kFreeCoordinates;
-    v += kFreeVelocities;
-  }
-  const TreeLayout& layout = constraints_.layout();
-  for (const Tree& tree : layout.trees) {
-    if (bad(q + tree.q_begin, tree.q_end - tree.q_begin) ||
-        bad(v + tree.v_begin, tree.v_end - tree.v_begin)) {
-      return static_cast<std::int32_t>(layout.members[layout.links[tree.links_begin].members_begin].body);
-    }
-  }
-  return -1;
-}
-
-bool WorldDynamics::is_at_rest(const Tree& tree, Instant at) {
-  const TreeLayout& layout = constraints_.layout();
-  constraints_.kernel().place(layout, tree, grounds_, at, bodies_.state.coordinates, bodies_.state.rates);
-  for (std::uint32_t l = tree.links_begin; l < tree.links_end; ++l) {
-    const LinkWork& link = constraints_.kernel().link(static_cast<std::int32_t>(l));
-    if (dot(link.w, link.w) + dot(link.v, link.v) != 0) return false;
-  }
-  return true;
-}
-
-void WorldDynamics::write_back(double t) {
-  const double *q = q_.data(), *v = v_.data();
-  State& state = bodies_.state;
-  for (const std::uint32_t i : free_bodies()) {
-    const BodyState s = read(q, v);
-    BodyState& old = state.bodies[i];
-    if (s.p_WBcm != old.p_WBcm || s.q_WB.coeffs() != old.q_WB.coeffs() ||
-        s.linear_momentum != old.linear_momentum || s.angular_momentum != old.angular_momentum) {
-      old = s;
-      bodies_.refresh(i);
-    }
-    q += kFreeCoordinates;
-    v += kFreeVelocities;
-  }
-  const Instant end{t, Side::Before};
-  for (std::size_t i = 0; has_animated_ && i < bodies_.size(); ++i) {
-    if (bodies_.kinds[i] == BodyKind::Animated)
-      bodies_.place(i, grounds_[i] = bodies_.drivers[i]->motion(t, end.side));
-  }
-  for (const Tree& tree : constraints_.layout().trees) {
-    const bool same =
-        std::equal(q + tree.q_begin, q + tree.q_end, state.coordinates.begin() + tree.q_begin) &&
-        std::equal(v + tree.v_begin, v + tree.v_end, state.rates.begin() + tree.v_begin);
-    if (same && (!tree.follows_driver || is_at_rest(tree, end))) continue;
-    std::copy(q + tree.q_begin, q + tree.q_end, state.coordinates.begin() + tree.q_begin);
-    std::copy(v + tree.v_begin, v + tree.v_end, state.rates.begin() + tree.v_begin);
-    constraints_.commit(bodies_, tree, grounds_, end);
-  }
+  return !layout_.links.empty() || laws().depends_on_velocity();
 }
 
 void WorldDynamics::accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
                                       std::vector<Vector3>& a_cm) {
+  room_.begin(bodies_, constraints_);
   begin();
   std::vector<double> v_dot(v_.size());
   evaluate({bodies_.state.time, Side::After}, coordinates_now(), velocities_now(), {}, v_dot);
   external = wrenches_;
   alpha.assign(bodies_.size(), Vector3::Zero());
   a_cm.assign(bodies_.size(), Vector3::Zero());
-  const TreeLayout& layout = constraints_.layout();
   const auto eigen = [](const kernel::Vec3<double>& x) { return Vector3{x.x, x.y, x.z}; };
-  for (std::size_t l = 0; l < layout.links.size(); ++l) {
-    const LinkWork& link = constraints_.kernel().link(static_cast<std::int32_t>(l));
+  for (std::size_t l = 0; l < layout_.links.size(); ++l) {
+    const LinkWork& link = kernel_.link(static_cast<std::int32_t>(l));
     const Vector3 al = eigen(link.al + link.dal), a = eigen(link.a + link.da), w = eigen(link.w),
                   p = eigen(link.p);
-    for (std::uint32_t m = layout.links[l].members_begin; m < layout.links[l].members_end; ++m) {
-      const std::uint32_t i = layout.members[m].body;
+    for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
+      const std::uint32_t i = layout_.members[m].body;
       const Vector3 c = stage_[i].p_WBcm - p;
       alpha[i] = al;
       a_cm[i] = a + al.cross(c) + w.cross(w.cross(c));

@@ -1,5 +1,5 @@
 #pragma once
-// The world as an integrator sees it. Coordinates: for each free body position and quaternion, then the joint
+// The world, or a part of it, as an integrator sees it. Coordinates: for each free body position and quaternion, then the joint
 // coordinates of all trees; velocities: for each free body P and L, then the joint rates. P and L of a body
 // without forces stay constant to the bit.
 #include <span>
@@ -10,6 +10,7 @@
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/lanes/tree_lanes.hpp>
+#include <pantin/physics/world_part.hpp>
 
 namespace pantin {
 
@@ -25,13 +26,44 @@ struct CutWrench {
   Vector3 p_WJ{Vector3::Zero()}, force{Vector3::Zero()}, torque{Vector3::Zero()};
 };
 
+/// What the dynamics of all parts of the world share, by body position: where bodies are at the instant that
+/// is looked at, the wrenches on them, and the motion of those that are not simulated.
+struct BodyRoom {
+  std::vector<BodyKinematics> stage{};
+  std::vector<Wrench> wrenches{};
+  std::vector<RigidMotion> grounds{};
+  bool has_animated{false};
+  /// Everything where it is now; the constraint manager must be prepared.
+  void begin(const BodyStore& bodies, const ConstraintManager& constraints);
+};
+
 class WorldDynamics final : public Dynamics {
  public:
-  WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces)
-      : bodies_{bodies}, constraints_{constraints}, forces_{forces} {}
+  /// Of everything.
+  WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces, BodyRoom& room)
+      : bodies_{bodies},
+        constraints_{constraints},
+        forces_{forces},
+        room_{room},
+        layout_{constraints.layout()},
+        kernel_{constraints.kernel()},
+        loops_{constraints.loops()} {}
+  /// Of a part that nothing couples with what is outside it. The others stand in the room as they were left.
+  WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces, BodyRoom& room,
+                WorldPart& part)
+      : bodies_{bodies},
+        constraints_{constraints},
+        forces_{forces},
+        room_{room},
+        layout_{part.layout},
+        kernel_{part.kernel},
+        loops_{part.loops},
+        part_{&part} {}
 
-  /// Fits the work space to the bodies and trees of now; the constraint manager must be prepared.
+  /// Fits the work space to the bodies and trees of now; the room must have begun.
   void begin();
+  /// Leaves the room as it was when it began, the state not yet being written back.
+  void put_back();
   /// Coordinates and velocities of the state reached.
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();
@@ -48,9 +80,8 @@ class WorldDynamics final : public Dynamics {
   /// external wrenches that act.
   void accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
                          std::vector<Vector3>& a_cm);
-  /// All bodies where q and v put them.
-  [[nodiscard]] const std::vector<BodyKinematics>& kinematics_at(Instant at, std::span<const double> q,
-                                                                 std::span<const double> v);
+  /// Puts the bodies in the room where q and v are, and those whose motion is given where that is.
+  void place(Instant at, std::span<const double> q, std::span<const double> v);
   /// Of a closure, as accelerations_now has left it.
   [[nodiscard]] CutWrench cut_wrench(std::uint32_t closure) const;
 
@@ -63,7 +94,7 @@ class WorldDynamics final : public Dynamics {
   void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override;
-  [[nodiscard]] bool has_constraints() const override { return !constraints_.layout().closures.empty(); }
+  [[nodiscard]] bool has_constraints() const override { return !layout_.closures.empty(); }
   /// A loop that the state settled last leaves open.
   [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
@@ -92,7 +123,12 @@ class WorldDynamics final : public Dynamics {
   void settle_loops(Instant at, std::span<double> q, std::span<double> v);
   /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
   /// rewritten).
-  [[nodiscard]] bool is_at_rest(const Tree& tree, Instant at);
+  [[nodiscard]] bool is_at_rest(const Tree& whole, Instant at);
+  /// Tree k as it stands in the layout, and the state, of everything.
+  [[nodiscard]] const Tree& tree_of_whole(std::size_t k) const;
+  [[nodiscard]] LawList laws() const {
+    return LawList{part_ == nullptr ? forces_.laws() : std::span<const ForceLaw* const>{part_->laws}};
+  }
   // The parts of motion_error (motion_error.cpp).
   [[nodiscard]] double free_error(std::span<const double> q, std::span<const double> q_error,
                                   std::span<const double> v_error, double h) const;
@@ -100,22 +136,28 @@ class WorldDynamics final : public Dynamics {
                                   std::span<const double> v_error, double h);
   void count_link(std::uint32_t link, double& greatest) const;
   [[nodiscard]] const std::vector<std::uint32_t>& free_bodies() const {
-    return constraints_.layout().free_bodies;
+    return layout_.free_bodies;
   }
 
   BodyStore& bodies_;
   ConstraintManager& constraints_;
   ForceManager& forces_;
+  BodyRoom& room_;
+  std::vector<BodyKinematics>& stage_{room_.stage};
+  std::vector<Wrench>& wrenches_{room_.wrenches};
+  std::vector<RigidMotion>& grounds_{room_.grounds};
+  const TreeLayout& layout_;
+  Articulated& kernel_;
+  LoopCloser& loops_;
+  WorldPart* part_{nullptr};  ///< null = everything
   std::vector<double> q_{}, v_{};
-  std::vector<BodyKinematics> stage_{};
-  std::vector<Wrench> wrenches_{};
-  std::vector<RigidMotion> grounds_{};
+  std::span<const double> trees_before_{}, rates_before_{};  ///< of all trees here, at the begin
+  std::vector<double> part_q_{}, part_v_{};                  ///< the same, of a part
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };
   std::vector<double> error_rates_{}, reach_{};  // work space of motion_error and weights
   std::vector<LinkMotion> base_{};
-  bool has_animated_{false};
 
   // Stages in lanes (lane_dynamics.cpp).
   struct LaneRoom {

@@ -74,6 +74,7 @@ void ConstraintManager::lay_out_anew(BodyStore& bodies) {
   std::vector<const JointDefinition*> joints;
   for (const auto& joint : joints_) joints.push_back(joint.get());
   layout_ = lay_out(bodies, joints);
+  ++layout_revision_;
   kernel_.resize(layout_);
   loops_.resize(layout_);
   open_.assign(layout_.trees.size(), {});

@@ -2,6 +2,7 @@
 // Owns the joints, lays them out as trees, and keeps the trees' coordinates in step with the bodies. Poses
 // and momenta of the bodies are the public truth; coordinates live in State beside them and are measured
 // afresh only when joints, bodies or kinds have changed, so that nothing drifts by conversion.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,6 +38,8 @@ class ConstraintManager {
   void prepare(BodyStore& bodies);
   [[nodiscard]] bool is_stale() const noexcept { return stale_; }
   [[nodiscard]] const TreeLayout& layout() const noexcept { return layout_; }
+  /// Counts how often the layout was made anew.
+  [[nodiscard]] std::uint64_t layout_revision() const noexcept { return layout_revision_; }
   [[nodiscard]] Articulated& kernel() noexcept { return kernel_; }
   [[nodiscard]] LoopCloser& loops() noexcept { return loops_; }
 
@@ -102,6 +105,7 @@ class ConstraintManager {
   std::vector<std::vector<JointId>> joints_of_{};  ///< by BodyId::index
 
   TreeLayout layout_{};
+  std::uint64_t layout_revision_{0};
   Articulated kernel_{};
   LoopCloser loops_{};
   std::vector<OpenLoop> open_{};  ///< by tree

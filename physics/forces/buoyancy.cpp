@@ -39,6 +39,7 @@ class BuoyancyLaw final : public ForceLaw {
 
   bool depends_on_velocity() const override { return settings_.drag != 0; }
   bool names(BodyId body) const override { return target_.names(body); }
+  Coupling coupling() const override { return target_.coupling(); }
 
   ParticleAction acts_on(ParticleSystemId system) const override { return target_.each_of(system); }
   void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {

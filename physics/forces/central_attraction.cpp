@@ -39,6 +39,14 @@ class CentralAttractionLaw final : public ForceLaw {
   bool names(BodyId body) const override {
     return target_.names(body) || (body && body == settings_.centre.body);
   }
+  /// The centre feels all that it pulls, and they feel where it is.
+  Coupling coupling() const override {
+    Coupling coupling = target_.coupling();
+    if (!settings_.centre.body) return coupling;
+    if (target_.is_all()) coupling.reach = Coupling::Reach::All;
+    coupling.bodies.push_back(settings_.centre.body);
+    return coupling;
+  }
 
   ParticleAction acts_on(ParticleSystemId system) const override {
     if (!target_.includes(system)) return ParticleAction::None;

@@ -30,6 +30,9 @@ class ConstantLoadLaw final : public ForceLaw {
   }
 
   bool names(BodyId body) const override { return body && body == settings_.body; }
+  Coupling coupling() const override {
+    return {.reach = Coupling::Reach::Named, .bodies = {settings_.body}};
+  }
 
  private:
   ConstantLoad settings_;

@@ -39,6 +39,9 @@ class DampedSpringLaw final : public ForceLaw {
   bool names(BodyId body) const override {
     return body && (body == settings_.a.body || body == settings_.b.body);
   }
+  Coupling coupling() const override {
+    return {.reach = Coupling::Reach::Named, .bodies = {settings_.a.body, settings_.b.body}};
+  }
 
  private:
   static bool moves(const BodiesAt& at, const Attachment& end) {

@@ -28,6 +28,7 @@ class FieldLaw final : public ForceLaw {
     return sum;
   }
   bool names(BodyId body) const override { return target_.names(body); }
+  Coupling coupling() const override { return target_.coupling(); }
 
   ParticleAction acts_on(ParticleSystemId system) const override { return target_.each_of(system); }
   void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {

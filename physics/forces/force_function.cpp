@@ -27,6 +27,10 @@ class ForceFunctionLaw final : public ForceLaw {
   }
   bool depends_on_velocity() const override { return settings_.depends_on_velocity; }
   bool names(BodyId body) const override { return target_.names(body); }
+  Coupling coupling() const override {
+    if (!settings_.on_body) return {.reach = Coupling::Reach::Named};
+    return settings_.couples_bodies ? Coupling{} : target_.coupling();
+  }
 
   ParticleAction acts_on(ParticleSystemId system) const override {
     return settings_.on_particle ? target_.each_of(system) : ParticleAction::None;

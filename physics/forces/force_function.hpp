@@ -26,6 +26,7 @@ struct ForceFunction {
   std::function<double(const BodiesAt& at, std::size_t i)> body_energy{};
   std::function<double(const ParticleAt& particle)> particle_energy{};
   bool depends_on_velocity{true};  ///< saying false where it does costs verlet its order
+  bool couples_bodies{true};       ///< whether on_body looks at bodies other than i (Coupling)
   BodyId body{};                   ///< null, and no system = every simulated body and particle
   ParticleSystemId particles{};    ///< the particles of this system only
 };

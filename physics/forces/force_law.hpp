@@ -2,15 +2,31 @@
 // The family of forces. To add one: a file with a settings struct, problem_with(settings) and
 // make_law(settings) that returns the law object; ForceManager::add finds them by the settings type. No list
 // is to be edited.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <pantin/physics/bodies_at.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/particles/particles_at.hpp>
 
 namespace pantin {
+
+/// How far a law reaches: which bodies it couples, in that what one of them feels depends on where another is
+/// or how it moves. Bodies that are not simulated couple nothing.
+struct Coupling {
+  enum class Reach : std::uint8_t {
+    Each,   ///< every body by itself, as gravity
+    Named,  ///< the bodies named with each other, as a spring; no other body feels the law
+    All,    ///< all bodies with each other
+  };
+  Reach reach{Reach::All};
+  /// Named: those; null ids are skipped. All: by way of these, so that nothing is coupled unless one of them
+  /// is simulated; empty = directly.
+  std::vector<BodyId> bodies{};
+};
 
 /// A force as a function of time and state. Called at every stage of the integrator, once for all bodies, so
 /// that every integrator keeps its order. Must depend on its arguments and constants only.
@@ -36,6 +52,11 @@ class ForceLaw {
     (void)body;
     return false;
   }
+
+  /// Which bodies it couples: they are integrated together. Must not change while the law is there. Unless
+  /// told otherwise, all; saying less than is true lets a body feel where others were at the begin of a step.
+  /// Of a law that couples particles: the bodies that these are coupled with.
+  [[nodiscard]] virtual Coupling coupling() const { return {}; }
 
   // Particles. A law that acts on them says how, and has one of the two verbs below.
   [[nodiscard]] virtual ParticleAction acts_on(ParticleSystemId system) const {

@@ -21,7 +21,9 @@ void ForceManager::check(const std::optional<SettingsProblem>& problem) {
 ForceId ForceManager::add_law(std::unique_ptr<ForceLaw> law) {
   PANTIN_EXPECTS(law, "the law is null; give an object");
   const ForceId id{.index = next_++, .generation = 1};
+  all_.push_back(law.get());
   laws_.push_back({id, std::move(law)});
+  ++revision_;
   return id;
 }
 
@@ -36,19 +38,29 @@ void ForceManager::remove(ForceId id) {
   const std::size_t position = position_of(id);
   PANTIN_EXPECTS(position < size(), dead_force(id));
   laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(position));
+  list_anew();
+}
+
+void ForceManager::list_anew() {
+  all_.clear();
+  for (const Entry& entry : laws_) all_.push_back(entry.law.get());
+  ++revision_;
 }
 
 std::size_t ForceManager::remove_laws_of(BodyId body) {
   PANTIN_EXPECTS(body, "the body is null; give the body whose laws are to go");
-  return std::erase_if(laws_, [body](const Entry& entry) { return entry.law->names(body); });
+  const std::size_t removed =
+      std::erase_if(laws_, [body](const Entry& entry) { return entry.law->names(body); });
+  if (removed > 0) list_anew();
+  return removed;
 }
 
 bool ForceManager::contains(ForceId id) const noexcept { return position_of(id) < size(); }
 
-void ForceManager::gather(const BodiesAt& at, std::span<Wrench> wrenches) const {
+void LawList::gather(const BodiesAt& at, std::span<Wrench> wrenches) const {
   PANTIN_EXPECTS(wrenches.size() == at.size(), std::to_string(wrenches.size()) + " wrenches for " +
                                                    std::to_string(at.size()) + " bodies; give one a body");
-  for (const Entry& entry : laws_) entry.law->add_wrenches(at, wrenches);
+  for (const ForceLaw* law : laws_) law->add_wrenches(at, wrenches);
 }
 
 double ForceManager::potential_energy(const BodiesAt& at) const {
@@ -57,19 +69,19 @@ double ForceManager::potential_energy(const BodiesAt& at) const {
   return sum;
 }
 
-std::optional<Vector3> ForceManager::uniform_acceleration() const {
+std::optional<Vector3> LawList::uniform_acceleration() const {
   Vector3 sum = Vector3::Zero();
-  for (const Entry& entry : laws_) {
-    const std::optional<Vector3> one = entry.law->uniform_acceleration();
+  for (const ForceLaw* law : laws_) {
+    const std::optional<Vector3> one = law->uniform_acceleration();
     if (!one) return {};
     sum += *one;
   }
   return sum;
 }
 
-bool ForceManager::depends_on_velocity() const {
+bool LawList::depends_on_velocity() const {
   return std::any_of(laws_.begin(), laws_.end(),
-                     [](const Entry& entry) { return entry.law->depends_on_velocity(); });
+                     [](const ForceLaw* law) { return law->depends_on_velocity(); });
 }
 
 ParticleAction ForceManager::action_on(ParticleSystemId system) const {

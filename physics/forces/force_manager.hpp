@@ -1,5 +1,6 @@
 #pragma once
 // Owns the force laws and has one verb: gather their wrenches.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,21 @@
 #include <pantin/physics/problem.hpp>
 
 namespace pantin {
+
+/// Laws that are asked together, in the order in which they were added; by reference.
+class LawList {
+ public:
+  explicit LawList(std::span<const ForceLaw* const> laws) : laws_{laws} {}
+
+  /// Adds all laws' wrenches.
+  void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
+  /// The sum of all laws, where each gives the same acceleration to every body [m/s^2].
+  [[nodiscard]] std::optional<Vector3> uniform_acceleration() const;
+  [[nodiscard]] bool depends_on_velocity() const;
+
+ private:
+  std::span<const ForceLaw* const> laws_;
+};
 
 class ForceManager {
  public:
@@ -27,12 +43,13 @@ class ForceManager {
   [[nodiscard]] bool contains(ForceId id) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return laws_.size(); }
 
-  /// Adds all laws' wrenches, in the order in which the laws were added.
-  void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
+  /// All laws, in the order in which they were added.
+  [[nodiscard]] std::span<const ForceLaw* const> laws() const noexcept { return all_; }
+  /// Counts changes of the list.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+  void gather(const BodiesAt& at, std::span<Wrench> wrenches) const { LawList{all_}.gather(at, wrenches); }
+  [[nodiscard]] bool depends_on_velocity() const { return LawList{all_}.depends_on_velocity(); }
   [[nodiscard]] double potential_energy(const BodiesAt& at) const;
-  /// The sum of all laws, where each gives the same acceleration to every body [m/s^2].
-  [[nodiscard]] std::optional<Vector3> uniform_acceleration() const;
-  [[nodiscard]] bool depends_on_velocity() const;
 
   // Particles
   /// The strongest action of any law on a system: Coupled before Each before None.
@@ -52,10 +69,13 @@ class ForceManager {
     std::unique_ptr<ForceLaw> law{};
   };
   static void check(const std::optional<SettingsProblem>& problem);
+  void list_anew();
   /// size() where there is no such law.
   [[nodiscard]] std::size_t position_of(ForceId id) const noexcept;
 
   std::vector<Entry> laws_{};
+  std::vector<const ForceLaw*> all_{};  ///< the same
+  std::uint64_t revision_{0};
   std::uint32_t next_{1};
 };
 

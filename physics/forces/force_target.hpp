@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <pantin/physics/bodies_at.hpp>
+#include <pantin/physics/forces/force_law.hpp>
 #include <pantin/physics/particles/particles_at.hpp>
 #include <pantin/physics/problem.hpp>
 
@@ -40,6 +41,11 @@ struct ForceTarget {
     return includes(system) ? ParticleAction::Each : ParticleAction::None;
   }
   [[nodiscard]] bool names(BodyId id) const { return id && id == body; }
+  /// Of a law that acts on each by itself.
+  [[nodiscard]] Coupling coupling() const {
+    if (is_all()) return {.reach = Coupling::Reach::Each};
+    return {.reach = Coupling::Reach::Named, .bodies = {body}};
+  }
 };
 
 /// OutOfRange where both are named.

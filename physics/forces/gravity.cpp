@@ -27,6 +27,7 @@ class GravityLaw final : public ForceLaw {
   }
 
   std::optional<Vector3> uniform_acceleration() const override { return g_W_; }
+  Coupling coupling() const override { return {.reach = Coupling::Reach::Each}; }
 
   ParticleAction acts_on(ParticleSystemId) const override { return ParticleAction::Each; }
 

@@ -37,6 +37,7 @@ class LinearDragLaw final : public ForceLaw {
   }
 
   bool names(BodyId body) const override { return body && body == settings_.body; }
+  Coupling coupling() const override { return ForceTarget{settings_.body, settings_.particles}.coupling(); }
 
  private:
   /// Settings by value, so that they stay in registers over the loop.

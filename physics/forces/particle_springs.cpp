@@ -68,6 +68,13 @@ class ParticleSpringsLaw final : public ForceLaw {
         settings_.springs.begin(), settings_.springs.end(),
         [body](const ParticleSpring& spring) { return body && !spring.b && spring.anchor.body == body; });
   }
+  Coupling coupling() const override {
+    Coupling coupling{.reach = Coupling::Reach::Named};
+    for (const ParticleSpring& spring : settings_.springs) {
+      if (!spring.b && spring.anchor.body) coupling.bodies.push_back(spring.anchor.body);
+    }
+    return coupling;
+  }
 
  private:
   /// A particle in the arrays of its system; no system = it is not there.

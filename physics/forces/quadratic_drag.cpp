@@ -26,6 +26,7 @@ class QuadraticDragLaw final : public ForceLaw {
     return settings_.coefficient != 0 || settings_.angular_coefficient != 0;
   }
   bool names(BodyId body) const override { return target_.names(body); }
+  Coupling coupling() const override { return target_.coupling(); }
 
   ParticleAction acts_on(ParticleSystemId system) const override { return target_.each_of(system); }
   void add_particle_forces(const ParticlesAt& at, const ParticleForces& forces) const override {

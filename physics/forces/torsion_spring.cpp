@@ -60,6 +60,9 @@ class TorsionSpringLaw final : public ForceLaw {
 
   bool depends_on_velocity() const override { return settings_.damping != 0; }
   bool names(BodyId body) const override { return body && (body == settings_.a || body == settings_.b); }
+  Coupling coupling() const override {
+    return {.reach = Coupling::Reach::Named, .bodies = {settings_.a, settings_.b}};
+  }
 
  private:
   static Matrix3 rotation(const BodiesAt& at, BodyId body) {

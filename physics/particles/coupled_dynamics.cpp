@@ -21,7 +21,7 @@ bool CoupledDynamics::has(std::size_t system) const {
 }
 
 std::span<double> CoupledDynamics::coordinates_now() {
-  const std::span<double> world = world_.coordinates_now();
+  const std::span<double> world = world_->coordinates_now();
   q_.resize(world.size() + 3 * mass_.size());
   std::copy(world.begin(), world.end(), q_.begin());
   double* to = q_.data() + world.size();
@@ -29,12 +29,12 @@ std::span<double> CoupledDynamics::coordinates_now() {
     const ParticleArrays& now = bodies_.state.particles[m.system].now;
     for (const std::vector<double>* a : {&now.x, &now.y, &now.z}) to = std::copy(a->begin(), a->end(), to);
   }
-  world_.also = this;
+  world_->also = this;
   return q_;
 }
 
 std::span<double> CoupledDynamics::velocities_now() {
-  const std::span<double> world = world_.velocities_now();
+  const std::span<double> world = world_->velocities_now();
   v_.resize(world.size() + 3 * mass_.size());
   std::copy(world.begin(), world.end(), v_.begin());
   double* to = v_.data() + world.size();
@@ -46,16 +46,16 @@ std::span<double> CoupledDynamics::velocities_now() {
 }
 
 void CoupledDynamics::end() {
-  world_.also = nullptr;
-  std::copy_n(q_.begin(), world_.coordinates(), world_.coordinates_reached().begin());
-  std::copy_n(v_.begin(), world_.velocities(), world_.velocities_reached().begin());
+  world_->also = nullptr;
+  std::copy_n(q_.begin(), world_->coordinates(), world_->coordinates_reached().begin());
+  std::copy_n(v_.begin(), world_->velocities(), world_->velocities_reached().begin());
 }
 
 void CoupledDynamics::read(std::size_t system, ParticleArrays& out) const {
   for (const Member& m : members_) {
     if (m.system != system) continue;
-    const double* q = q_.data() + world_.coordinates() + 3 * m.begin;
-    const double* v = v_.data() + world_.velocities() + 3 * m.begin;
+    const double* q = q_.data() + world_->coordinates() + 3 * m.begin;
+    const double* v = v_.data() + world_->velocities() + 3 * m.begin;
     for (std::vector<double>* a : {&out.x, &out.y, &out.z})
       q = (std::copy_n(q, m.size, a->begin()), q + m.size);
     for (std::vector<double>* a : {&out.vx, &out.vy, &out.vz})
@@ -64,7 +64,7 @@ void CoupledDynamics::read(std::size_t system, ParticleArrays& out) const {
 }
 
 void CoupledDynamics::look_at(std::span<const double> q, std::span<const double> v) {
-  const std::span<const double> qp = q.subspan(world_.coordinates()), vp = v.subspan(world_.velocities());
+  const std::span<const double> qp = q.subspan(world_->coordinates()), vp = v.subspan(world_->velocities());
   views_.clear();
   for (const Member& m : members_) {
     const ParticleSystemState& state = bodies_.state.particles[m.system];
@@ -95,8 +95,8 @@ void CoupledDynamics::add_wrenches(const BodiesAt& bodies, std::span<Wrench> wre
 
 void CoupledDynamics::rate(Instant at, std::span<const double> q, std::span<const double> v,
                            std::span<double> q_dot) {
-  const std::size_t nq = world_.coordinates(), nv = world_.velocities();
-  world_.rate(at, q.first(nq), v.first(nv), q_dot.first(nq));
+  const std::size_t nq = world_->coordinates(), nv = world_->velocities();
+  world_->rate(at, q.first(nq), v.first(nv), q_dot.first(nq));
   std::copy(v.begin() + static_cast<std::ptrdiff_t>(nv), v.end(),
             q_dot.begin() + static_cast<std::ptrdiff_t>(nq));
 }
@@ -108,12 +108,12 @@ void CoupledDynamics::acceleration(Instant at, std::span<const double> q, std::s
 
 void CoupledDynamics::derivative(Instant at, std::span<const double> q, std::span<const double> v,
                                  std::span<double> q_dot, std::span<double> v_dot) {
-  const std::size_t nq = world_.coordinates(), nv = world_.velocities();
+  const std::size_t nq = world_->coordinates(), nv = world_->velocities();
   look_at(q, v);
   if (q_dot.empty()) {
-    world_.acceleration(at, q.first(nq), v.first(nv), v_dot.first(nv));
+    world_->acceleration(at, q.first(nq), v.first(nv), v_dot.first(nv));
   } else {
-    world_.derivative(at, q.first(nq), v.first(nv), q_dot.first(nq), v_dot.first(nv));
+    world_->derivative(at, q.first(nq), v.first(nv), q_dot.first(nq), v_dot.first(nv));
     std::copy(v.begin() + static_cast<std::ptrdiff_t>(nv), v.end(),
               q_dot.begin() + static_cast<std::ptrdiff_t>(nq));
   }
@@ -129,8 +129,8 @@ void CoupledDynamics::derivative(Instant at, std::span<const double> q, std::spa
 double CoupledDynamics::motion_error(std::span<const double> q, std::span<const double> v,
                                      std::span<const double> q_error, std::span<const double> v_error,
                                      double h) {
-  const std::size_t nq = world_.coordinates(), nv = world_.velocities();
-  double worst = world_.motion_error(q.first(nq), v.first(nv), q_error.first(nq), v_error.first(nv), h);
+  const std::size_t nq = world_->coordinates(), nv = world_->velocities();
+  double worst = world_->motion_error(q.first(nq), v.first(nv), q_error.first(nq), v_error.first(nv), h);
   for (const double e : q_error.subspan(nq)) worst = std::max(worst, std::abs(e));
   for (const double e : v_error.subspan(nv)) worst = std::max(worst, h * std::abs(e));
   return worst;

@@ -12,13 +12,13 @@ namespace pantin {
 
 class CoupledDynamics final : public Dynamics, public WrenchSource {
  public:
-  CoupledDynamics(BodyStore& bodies, ForceManager& forces, WorldDynamics& world)
-      : bodies_{bodies}, forces_{forces}, world_{world} {}
+  CoupledDynamics(BodyStore& bodies, ForceManager& forces) : bodies_{bodies}, forces_{forces} {}
 
-  /// Finds the systems under laws that couple; `takes(k)` says which may be integrated so. False where there
-  /// are none.
+  /// Finds the systems under laws that couple, with each other and with the bodies of `world`; `takes(k)` says
+  /// which may be integrated so. False where there are none.
   template <class Takes, class MassOf>
-  bool begin(const Takes& takes, const MassOf& mass_of) {
+  bool begin(WorldDynamics& world, const Takes& takes, const MassOf& mass_of) {
+    world_ = &world;
     members_.clear();
     if (!world_is_coupled()) return false;
     for (std::size_t k = 0; k < bodies_.state.particles.size(); ++k) {
@@ -46,14 +46,14 @@ class CoupledDynamics final : public Dynamics, public WrenchSource {
   void derivative(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override {
-    world_.settle(at, q.first(world_.coordinates()), v.first(world_.velocities()));
+    world_->settle(at, q.first(world_->coordinates()), v.first(world_->velocities()));
   }
-  [[nodiscard]] bool has_constraints() const override { return world_.has_constraints(); }
+  [[nodiscard]] bool has_constraints() const override { return world_->has_constraints(); }
   [[nodiscard]] double motion_error(std::span<const double> q, std::span<const double> v,
                                     std::span<const double> q_error, std::span<const double> v_error,
                                     double h) override;
   [[nodiscard]] bool acceleration_depends_on_velocity() const override {
-    return world_.acceleration_depends_on_velocity();
+    return world_->acceleration_depends_on_velocity();
   }
   void add_wrenches(const BodiesAt& bodies, std::span<Wrench> wrenches) override;
 
@@ -69,7 +69,7 @@ class CoupledDynamics final : public Dynamics, public WrenchSource {
 
   BodyStore& bodies_;
   ForceManager& forces_;
-  WorldDynamics& world_;
+  WorldDynamics* world_{nullptr};
   std::vector<Member> members_{};
   std::vector<CoupledParticles> views_{};
   std::vector<double> q_{}, v_{}, force_{}, mass_{};

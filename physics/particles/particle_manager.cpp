@@ -22,9 +22,8 @@ void erase_at(std::vector<double>& v, std::size_t i) {
 
 }  // namespace
 
-ParticleManager::ParticleManager(BodyStore& bodies, ForceManager& forces, DeflectorManager& deflectors,
-                                 WorldDynamics& world)
-    : impl_{std::make_unique<Impl>(bodies, forces, deflectors, world)} {}
+ParticleManager::ParticleManager(BodyStore& bodies, ForceManager& forces, DeflectorManager& deflectors)
+    : impl_{std::make_unique<Impl>(bodies, forces, deflectors)} {}
 ParticleManager::~ParticleManager() = default;
 
 // Systems

@@ -1,5 +1,6 @@
 #pragma once
 // Owns the particle systems, with their emitters and ties. Reached by PhysicsManager::particles().
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,8 +25,7 @@ class WorldDynamics;
 /// there at once; the next step goes on from it.
 class ParticleManager {
  public:
-  ParticleManager(BodyStore& bodies, ForceManager& forces, DeflectorManager& deflectors,
-                  WorldDynamics& world);
+  ParticleManager(BodyStore& bodies, ForceManager& forces, DeflectorManager& deflectors);
   ~ParticleManager();
 
   // Systems
@@ -58,9 +58,10 @@ class ParticleManager {
   void pin(ParticleId id, const Attachment& to);
   void unpin(ParticleId id);
 
-  /// The integrator of systems that are neither tied nor coupled with bodies. Unless set (null unsets), it is
-  /// another of the bodies', its tolerance included. One that chooses its steps does so batch by batch
-  /// (ParticleBlock::kMost particles), from the whole step on.
+  /// The integrator of systems that are neither tied nor coupled with simulated bodies. Unless set (null
+  /// unsets), it is another of the bodies', its tolerance included. One that chooses its steps does so batch by
+  /// batch (ParticleBlock::kMost particles), from the whole step on; systems that laws couple among themselves
+  /// go together.
   void set_integrator(std::unique_ptr<Integrator> integrator);
 
   /// Kinetic and potential energy of all particles at the state reached [J].
@@ -72,8 +73,11 @@ class ParticleManager {
   void remove_all_of(BodyId body);  ///< emitters and pins on it
   void integrator_of_bodies_changed();
   void begin_step();
-  /// Before the bodies move: gathers what is integrated with them. Null = the bodies go alone.
-  [[nodiscard]] Dynamics* begin_update();
+  /// The one that was set; null = none.
+  [[nodiscard]] Integrator* own_integrator() noexcept;
+  [[nodiscard]] std::uint64_t integrator_revision() const noexcept;  ///< counts settings of it
+  /// Before the bodies move: gathers what is integrated with these ones. Null = the bodies go alone.
+  [[nodiscard]] Dynamics* begin_update(WorldDynamics& bodies);
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();
   void bodies_have_moved();

@@ -13,7 +13,14 @@ namespace pantin {
 void ParticleManager::set_integrator(std::unique_ptr<Integrator> integrator) {
   impl_->integrator = std::move(integrator);
   impl_->integrator_is_given = impl_->integrator != nullptr;
+  ++impl_->integrator_revision;
 }
+
+Integrator* ParticleManager::own_integrator() noexcept {
+  return impl_->integrator_is_given ? impl_->integrator.get() : nullptr;
+}
+
+std::uint64_t ParticleManager::integrator_revision() const noexcept { return impl_->integrator_revision; }
 
 void ParticleManager::integrator_of_bodies_changed() {
   if (!impl_->integrator_is_given) impl_->integrator.reset();
@@ -28,12 +35,12 @@ void ParticleManager::begin_step() {
   impl_->sweep.counts = {};
 }
 
-Dynamics* ParticleManager::begin_update() {
+Dynamics* ParticleManager::begin_update(WorldDynamics& bodies) {
   Impl& world = *impl_;
   if (world.systems.empty()) return nullptr;
   world.before = world.bodies.state.kinematics;
   world.deflectors.begin();
-  const bool any = world.coupled.begin([&](std::size_t k) { return !world.systems[k].is_tied(); },
+  const bool any = world.coupled.begin(bodies, [&](std::size_t k) { return !world.systems[k].is_tied(); },
                                        [&](std::size_t k) { return world.systems[k].settings.mass; });
   return any ? &world.coupled : nullptr;
 }

@@ -56,8 +56,8 @@ struct SystemData {
 };
 
 struct ParticleManager::Impl {
-  Impl(BodyStore& b, ForceManager& f, DeflectorManager& d, WorldDynamics& w)
-      : bodies{b}, forces{f}, deflectors{d}, block{f}, sweep{d}, coupled{b, f, w} {}
+  Impl(BodyStore& b, ForceManager& f, DeflectorManager& d)
+      : bodies{b}, forces{f}, deflectors{d}, block{f}, sweep{d}, coupled{b, f} {}
 
   BodyStore& bodies;
   ForceManager& forces;
@@ -69,6 +69,7 @@ struct ParticleManager::Impl {
   std::vector<BodyKinematics> before{};
   std::unique_ptr<Integrator> integrator{};
   bool integrator_is_given{false};
+  std::uint64_t integrator_revision{0};
   std::vector<std::size_t> skip_in_batch{};
   ParticleReport report{};
   ParticleId not_finite{};

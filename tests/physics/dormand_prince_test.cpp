@@ -96,7 +96,7 @@ TEST(DormandPrince, ContinuesBitForBitFromASnapshot) {
   physics.restore(here);
   ASSERT_TRUE(test::run(physics, 0.1, 5));
   EXPECT_EQ(hash(physics.snapshot()), hash(there));
-  EXPECT_EQ(physics.snapshot().memory.next, there.memory.next);
+  EXPECT_EQ(physics.snapshot().memories.front().next, there.memories.front().next);
 }
 
 TEST(DormandPrince, SaysSoWhereNoStepIsShortEnough) {
