@@ -120,8 +120,8 @@ class PhysicsManager {
   /// together, and so do all islands where there are more than 32, since for each of them the force laws are
   /// asked about all bodies. An integrator that takes the steps it is asked for advances all together.
   void set_integrator(std::unique_ptr<Integrator> integrator);
-  /// Of the island of a body, as long as the body is simulated; null = that of all. Where bodies of one island
-  /// ask for different ones, the one that was set last wins.
+  /// Of the island of a body, as long as the body is simulated; null = that of all. Where bodies of one
+  /// island ask for different ones, the one that was set last wins.
   void set_integrator(BodyId body, std::unique_ptr<Integrator> integrator);
   [[nodiscard]] const Integrator& integrator() const noexcept;  ///< of all; "rk4" unless set
   /// Whether all integrators set for bodies hold a tolerance, so that a step may be as long as one likes.

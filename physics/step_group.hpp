@@ -13,7 +13,7 @@
 namespace pantin {
 
 /// Islands that choose their own steps under the integrator that is common to all do so each by itself up to
-/// this many, and all together beyond: at every evaluation of each, the force laws are asked about all bodies.
+/// this many, and all together beyond: at each evaluation of one the force laws are asked about all bodies.
 inline constexpr std::size_t kMostSeparateIslands = 32;
 
 /// An integrator for the island of a body.

@@ -69,41 +69,45 @@ const BodyIntegrator* PhysicsManager::Impl::integrator_of(const Island& island) 
 
 void PhysicsManager::Impl::make_groups() {
   const std::vector<Island> islands = find_islands(bodies, constraints.layout(), forces);
-  const bool chooses_steps = integrator->control() != nullptr;
-  const auto eager = std::count_if(islands.begin(), islands.end(), [](const Island& i) { return !i.is_plain; });
-  const bool apart = chooses_steps && static_cast<std::size_t>(eager) <= kMostSeparateIslands;
+  const auto others =
+      std::count_if(islands.begin(), islands.end(), [](const Island& island) { return !island.is_plain; });
+  const bool chooses = integrator->control() != nullptr;
+  const bool apart = chooses && static_cast<std::size_t>(others) <= kMostSeparateIslands;
+  const std::string reason_together =
+      !chooses ? "one integrator in steps of the length asked for"
+      : apart  ? "free bodies that no law names"
+               : "more than " + std::to_string(kMostSeparateIslands) +
+                    " islands, for each of which the force laws would be asked about all bodies";
 
   groups.clear();
-  std::size_t together = islands.size();
+  std::size_t together = islands.size();  // which group that is, where there is one
   for (const Island& island : islands) {
-    const BodyIntegrator* own = integrator_of(island);
-    Integrator* of_particles = island.bodies.empty() ? particles.own_integrator() : nullptr;
-    const bool joins = own == nullptr && of_particles == nullptr && (island.is_plain || !apart);
-    if (joins && together < groups.size()) {
-      StepGroup& group = groups[together];
-      group.bodies.insert(group.bodies.end(), island.bodies.begin(), island.bodies.end());
-      group.has_particles = group.has_particles || island.has_particles;
-      continue;
-    }
-    if (joins) together = groups.size();
     StepGroup group{.bodies = island.bodies, .has_particles = island.has_particles};
-    group.integrator = own != nullptr ? own->integrator.get() : of_particles != nullptr ? of_particles : integrator.get();
-    group.reason = own != nullptr            ? "asked for by body '" + bodies.names[bodies.at(own->body)] + "'"
-                   : of_particles != nullptr ? "the integrator of particles, which no body is coupled with"
-                   : !chooses_steps          ? "one integrator in steps of the length asked for"
-                   : !apart                  ? "more than " + std::to_string(kMostSeparateIslands) +
-                                      " islands, for each of which the force laws would be asked about all bodies"
-                   : joins ? "free bodies that no law names"
-                           : "in steps of its own, which no other island needs";
+    if (const BodyIntegrator* own = integrator_of(island)) {
+      group.integrator = own->integrator.get();
+      group.reason = "asked for by body '" + bodies.names[bodies.at(own->body)] + "'";
+    } else if (Integrator* of_particles = particles.own_integrator(); of_particles && island.bodies.empty()) {
+      group.integrator = of_particles;
+      group.reason = "the integrator of particles, which no body is coupled with";
+    } else if (apart && !island.is_plain) {
+      group.integrator = integrator.get();
+      group.reason = "in steps of its own, which no other island needs";
+    } else if (together < groups.size()) {
+      StepGroup& with = groups[together];
+      with.bodies.insert(with.bodies.end(), island.bodies.begin(), island.bodies.end());
+      with.has_particles = with.has_particles || island.has_particles;
+      continue;
+    } else {
+      together = groups.size();
+      group.integrator = integrator.get();
+      group.reason = reason_together;
+    }
     groups.push_back(std::move(group));
   }
   if (groups.empty()) groups.push_back({.integrator = integrator.get(), .reason = "nothing is simulated"});
   for (StepGroup& group : groups) std::sort(group.bodies.begin(), group.bodies.end());
-  if (groups.size() == 1) {
-    groups.front().dynamics = &dynamics;
-  } else {
-    lay_out_groups();
-  }
+  if (groups.size() == 1) groups.front().dynamics = &dynamics;
+  else lay_out_groups();
   groups_stamp = stamp_of(groups, bodies.ids);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// The world, or a part of it, as an integrator sees it. Coordinates: for each free body position and quaternion, then the joint
-// coordinates of all trees; velocities: for each free body P and L, then the joint rates. P and L of a body
-// without forces stay constant to the bit.
+// The world, or a part of it, as an integrator sees it. Coordinates: for each free body position and
+// quaternion, then the joint coordinates of all trees; velocities: for each free body P and L, then the joint
+// rates. P and L of a body without forces stay constant to the bit.
 #include <span>
 #include <vector>
 

@@ -25,7 +25,8 @@ BodyState read(const double* q, const double* v) {
 void BodyRoom::begin(const BodyStore& bodies, const ConstraintManager& constraints) {
   stage = bodies.state.kinematics;
   wrenches.resize(bodies.size());
-  has_animated = std::find(bodies.kinds.begin(), bodies.kinds.end(), BodyKind::Animated) != bodies.kinds.end();
+  has_animated =
+      std::find(bodies.kinds.begin(), bodies.kinds.end(), BodyKind::Animated) != bodies.kinds.end();
   constraints.ground_motions(bodies, {bodies.state.time, Side::After}, grounds);
 }
 
@@ -56,7 +57,7 @@ const Tree& WorldDynamics::tree_of_whole(std::size_t k) const {
 
 void WorldDynamics::put_back() {
   for (const std::uint32_t i : free_bodies()) stage_[i] = bodies_.state.kinematics[i];
-  for (const TreeMember& member : layout_.members) stage_[member.body] = bodies_.state.kinematics[member.body];
+  for (const TreeMember& m : layout_.members) stage_[m.body] = bodies_.state.kinematics[m.body];
 }
 
 std::span<double> WorldDynamics::coordinates_now() {
@@ -132,8 +133,8 @@ void WorldDynamics::write_back(double t) {
   for (std::size_t k = 0; k < layout_.trees.size(); ++k) {
     const Tree &tree = layout_.trees[k], &whole = tree_of_whole(k);
     const auto to_q = state.coordinates.begin() + whole.q_begin, to_v = state.rates.begin() + whole.v_begin;
-    const bool same =
-        std::equal(q + tree.q_begin, q + tree.q_end, to_q) && std::equal(v + tree.v_begin, v + tree.v_end, to_v);
+    const bool same = std::equal(q + tree.q_begin, q + tree.q_end, to_q) &&
+                      std::equal(v + tree.v_begin, v + tree.v_end, to_v);
     if (same && (!whole.follows_driver || is_at_rest(whole, end))) continue;
     std::copy(q + tree.q_begin, q + tree.q_end, to_q);
     std::copy(v + tree.v_begin, v + tree.v_end, to_v);

@@ -77,7 +77,8 @@ void write_json(const SolveResult& result, const SolveOptions& options) {
   for (const IslandChoice& island : result.islands) {
     json.begin_object().key("bodies").begin_array();
     for (const std::string& name : island.bodies) json.value(name);
-    json.end_array().member("solver", island.solver).member("reason", island.reason).end_object();
+    json.end_array().member("solver", island.solver).member("reason", island.reason);
+    json.member("shares_steps", island.shares_steps).end_object();
   }
   json.end_array().key("messages").begin_array();
   for (const std::string& message : result.messages) json.value(message);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pantin/bridge/problems/rigid_ref.hpp>
+#include <pantin/bridge/problems/solve_islands.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
@@ -49,10 +50,8 @@ class Run {
       return false;
     }
     built_ = std::move(*built.value);
-    const double infinite = std::numeric_limits<double>::infinity();
-    std::unique_ptr<Integrator> controlled =
-        make_integrator(result_.integrator, settings_.step ? infinite : settings_.tolerance);
-    physics_.set_integrator(controlled ? std::move(controlled) : make_integrator(result_.integrator));
+    set_integrators(built_, settings_, result_.islands, physics_);
+    result_.integrator = names_of_solvers(result_.islands);
     return true;
   }
 
@@ -185,27 +184,6 @@ class Run {
   long subdivided_{0};
 };
 
-}  // namespace
-
-namespace {
-
-/// One integrator drives all islands: what suits loops, or else stiff motion, is good enough for the others.
-std::string common_choice(std::vector<IslandChoice>& islands) {
-  if (islands.empty()) return "gauss16";
-  std::string common = islands.front().solver;
-  for (const char* strong : {"radau", "dormand-prince"}) {
-    for (const IslandChoice& island : islands) {
-      if (island.solver == strong) common = strong;
-    }
-  }
-  for (IslandChoice& island : islands) {
-    if (island.solver != common)
-      island.reason = "one integrator drives all islands, and another needs this one";
-    island.solver = common;
-  }
-  return common;
-}
-
 /// How loops are integrated where the choice is free.
 enum class Loops {
   LikeTrees,
@@ -220,15 +198,12 @@ SolveResult solve_once(const ReferenceProblem& problem, const SolveSettings& set
     island.solver = "dormand-prince";
     island.reason = "closed loops near singular positions, where short steps keep to their branch";
   }
-  result.integrator = settings.integrator;
-  if (settings.integrator == "auto") {
-    result.integrator = common_choice(result.islands);
-  } else {
-    for (IslandChoice& island : result.islands) {
-      island.solver = settings.integrator;
-      island.reason = "asked for";
-    }
+  for (IslandChoice& island : result.islands) {
+    if (settings.integrator == "auto") continue;
+    island.solver = settings.integrator;
+    island.reason = "asked for";
   }
+  result.integrator = names_of_solvers(result.islands);
   Run run{problem, settings, result};
   if (run.build()) run.run();
   return result;

@@ -41,7 +41,7 @@ struct SolvedState {
 struct SolveResult {
   std::string problem{};  ///< its name
   SolveStatus status{SolveStatus::Ok};
-  std::string integrator{};
+  std::string integrator{};  ///< name; of all islands, where they go by several
   // Greatest over samples and bodies; nothing where the samples do not say.
   std::optional<double> position_error{};  ///< of the centre of gravity [m]
   std::optional<double> attitude_error{};  ///< angle between the attitudes [rad]
@@ -54,13 +54,14 @@ struct SolveResult {
   long evaluations{0};    ///< of the derivative
   double cpu_seconds{0};  ///< of the stepping, least of the repeats, and of a run that was thrown away
   double loop_margin{1};  ///< least StepReport::loop_margin
-  std::vector<IslandChoice> islands{};
+  std::vector<IslandChoice> islands{};  ///< as they were run
   std::vector<std::string> messages{};
   std::vector<SolvedState> states{};  ///< at every sample time; at the end where there is no sample
 };
 
-/// Builds the problem and runs it over its samples. `auto` integrates loops like trees; where they come near
-/// singular positions the run is thrown away and dormand-prince takes short steps instead. Where `auto` fails
+/// Builds the problem and runs it over its samples. `auto` gives each island the solver that suits it, and
+/// integrates loops like trees; where they come near singular positions the run is thrown away and
+/// dormand-prince takes short steps in islands with loops instead. Where `auto` fails
 /// at the tolerance, as near singular positions of loops it may, it is tried at stricter ones, and a message
 /// says so.
 [[nodiscard]] SolveResult solve(const ReferenceProblem& problem, const SolveSettings& settings);

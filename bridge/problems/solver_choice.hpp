@@ -13,6 +13,7 @@ struct IslandChoice {
   bool has_loop{false};               ///< joints that close a loop
   std::string solver{};               ///< an integrator's name
   std::string reason{};               ///< in words
+  bool shares_steps{false};           ///< it is integrated in steps in common with other islands
 };
 
 /// The islands of a problem, in the order of their first bodies, each with the integrator that suits it at

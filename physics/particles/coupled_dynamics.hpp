@@ -14,8 +14,8 @@ class CoupledDynamics final : public Dynamics, public WrenchSource {
  public:
   CoupledDynamics(BodyStore& bodies, ForceManager& forces) : bodies_{bodies}, forces_{forces} {}
 
-  /// Finds the systems under laws that couple, with each other and with the bodies of `world`; `takes(k)` says
-  /// which may be integrated so. False where there are none.
+  /// Finds the systems under laws that couple, with each other and with the bodies of `world`; `takes(k)`
+  /// says which may be integrated so. False where there are none.
   template <class Takes, class MassOf>
   bool begin(WorldDynamics& world, const Takes& takes, const MassOf& mass_of) {
     world_ = &world;

@@ -59,9 +59,9 @@ class ParticleManager {
   void unpin(ParticleId id);
 
   /// The integrator of systems that are neither tied nor coupled with simulated bodies. Unless set (null
-  /// unsets), it is another of the bodies', its tolerance included. One that chooses its steps does so batch by
-  /// batch (ParticleBlock::kMost particles), from the whole step on; systems that laws couple among themselves
-  /// go together.
+  /// unsets), it is another of the bodies', its tolerance included. One that chooses its steps does so batch
+  /// by batch (ParticleBlock::kMost particles), from the whole step on; systems that laws couple with each
+  /// other go together.
   void set_integrator(std::unique_ptr<Integrator> integrator);
 
   /// Kinetic and potential energy of all particles at the state reached [J].

@@ -91,6 +91,35 @@ TEST(Solve, FindsIslandsAndTheirSolvers) {
   EXPECT_EQ(choices[0].solver, "gauss16");
 }
 
+TEST(Solve, GivesEachIslandItsOwnSolver) {
+  // A body on an overdamped spring, whose motion decays within a microsecond, needs radau; a pendulum that
+  // nothing couples with it goes by gauss16, and is where it is, to the bit, when it is alone.
+  const MassProperties mass{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
+  reference::Problem alone{.gravity = {0, 0, -9.81}, .duration = 1};
+  alone.bodies.push_back({.name = "bob", .mass = mass, .X_WB = {{1, 0, 0}}});
+  alone.joints.push_back({.name = "hinge", .b = "bob", .axis_W = {0, 1, 0}});
+  reference::Problem both = alone;
+  both.bodies.insert(both.bodies.begin(), {.name = "slug", .mass = mass, .X_WB = {{5, 0, 0}}});
+  both.forces.push_back(reference::Spring{
+      .a = {.point = {4, 0, 0}}, .b = {.body = "slug"}, .stiffness = 1e6, .damping = 1e6, .rest_length = 0.5});
+  for (reference::Problem* problem : {&alone, &both}) problem->samples = {{.t = 0.5}, {.t = 1}};
+
+  const SolveResult of_both = solve(both, {.tolerance = 1e-9}), of_bob = solve(alone, {.tolerance = 1e-9});
+  ASSERT_EQ(of_both.status, SolveStatus::Ok);
+  ASSERT_EQ(of_both.islands.size(), 2u);
+  EXPECT_EQ(of_both.islands[0].solver, "radau");
+  EXPECT_EQ(of_both.islands[1].solver, "gauss16");
+  EXPECT_FALSE(of_both.islands[0].shares_steps || of_both.islands[1].shares_steps);
+  EXPECT_EQ(of_both.integrator, "radau, gauss16");
+  EXPECT_EQ(of_bob.integrator, "gauss16");
+  for (std::size_t i = 0; i < of_bob.states.size(); ++i) {
+    const reference::Body &bob = of_both.states[i].bodies[1], &expected = of_bob.states[i].bodies[0];
+    EXPECT_EQ(bob.X_WB.p, expected.X_WB.p);
+    EXPECT_EQ(bob.v_WBcm, expected.v_WBcm);
+  }
+  EXPECT_EQ(solve(both, {.integrator = "gauss8", .step = 1e-5}).integrator, "gauss8");
+}
+
 TEST(Solve, TakesShortStepsOnlyWhereLoopsComeNearSingularPositions) {
   // A slider-crank stays away from positions in which bars in line may go two ways, four-bars of equal bars
   // pass them twice a turn: there long steps are not trusted.

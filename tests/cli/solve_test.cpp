@@ -39,7 +39,7 @@ TEST(Solve, SaysAllKeysOnOneLineAProblem) {
     EXPECT_LT(result["position_error_m"], 1e-8);
     EXPECT_LT(result["attitude_error_rad"], 1e-8);
     ASSERT_EQ(result["islands"].size(), 1u);
-    for (const char* key : {"bodies", "solver", "reason"})
+    for (const char* key : {"bodies", "solver", "reason", "shares_steps"})
       EXPECT_TRUE(result["islands"][0].contains(key)) << key;
     EXPECT_FALSE(result.contains("states"));
   }

@@ -54,7 +54,7 @@ TEST(Islands, MergeAndSplitAsJointsAndLawsComeAndGo) {
   row.physics.forces().remove(twist);
   EXPECT_EQ(row.islands(), apart);
   const JointId ball =
-      row.physics.add(test::joint_here<BallSettings>(row.physics, b[0], b[1], {{0.5, 0, 0}}, "closes a loop"));
+      row.physics.add(test::joint_here<BallSettings>(row.physics, b[0], b[1], {{0.5, 0, 0}}, "loop"));
   EXPECT_EQ(row.islands(), (std::vector<Bodies>{{b[0], b[1]}, {b[2]}}));
   row.physics.remove(ball);
   EXPECT_EQ(row.islands(), apart);
@@ -74,8 +74,8 @@ TEST(Islands, AreNotCoupledThroughWhatIsNotSimulated) {
 }
 
 TEST(Islands, AreWhatLawsSayThatTheyCouple) {
-  // Drag and wind act on each body by itself; a centre feels all that it pulls; of a function nothing is known
-  // but what it says.
+  // Drag and wind act on each body by itself; a centre feels all that it pulls; of a function nothing is
+  // known but what it says.
   struct Case {
     std::function<void(Row&)> add;
     std::size_t islands;
@@ -159,7 +159,9 @@ TEST(Islands, GoTogetherWhereTheirStepsAreGivenOrTheyAreMany) {
   EXPECT_EQ(many.physics.islands().size(), 32u);
 
   Row with_free{2};
-  for (int i = 0; i < 40; ++i) with_free.physics.add({.X_WB = {{0, 1.0 * i, 0}}, .mass = test::lopsided_mass()});
+  for (int i = 0; i < 40; ++i) {
+    with_free.physics.add({.X_WB = {{0, 1.0 * i, 0}}, .mass = test::lopsided_mass()});
+  }
   const std::vector<IslandGroup> groups = with_free.physics.islands();
   ASSERT_EQ(groups.size(), 3u);
   EXPECT_EQ(groups[2].bodies.size(), 40u);

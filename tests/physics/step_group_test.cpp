@@ -21,7 +21,8 @@ constexpr double kStep = 0.1;
 /// A pendulum a tenth of a millimetre long: it swings at some 300 rad/s.
 BodyId add_fast_pendulum(PhysicsManager& physics) {
   MassProperties m{1, {0, 0, -1e-4}, 1e-9 * Matrix3::Identity()};
-  const BodyId id = physics.add({.name = "fast", .X_WB = {{5, 0, 0}, Quaternion{Eigen::AngleAxisd{1, Vector3::UnitX()}}}, .mass = m});
+  const Quaternion turned{Eigen::AngleAxisd{1, Vector3::UnitX()}};
+  const BodyId id = physics.add({.name = "fast", .X_WB = {{5, 0, 0}, turned}, .mass = m});
   physics.add(test::joint_here<PivotSettings>(physics, {}, id, {{5, 0, 0}, test::facing({1, 0, 0})}));
   return id;
 }
@@ -60,8 +61,8 @@ const std::vector<MakeIntegrator>& controlled() {
 }
 
 TEST(StepGroup, LeavesTheStepsOfASlowIslandAlone) {
-  // Nothing couples the two: the slow chain must take the steps, and reach the bits, that it takes and reaches
-  // where there is nothing else, while the fast pendulum needs many more.
+  // Nothing couples the two: the slow chain must take the steps, and reach the bits, that it takes and
+  // reaches where there is nothing else, while the fast pendulum needs many more.
   for (const MakeIntegrator& make : controlled()) {
     PhysicsManager both, alone;
     for (PhysicsManager* physics : {&both, &alone}) {
@@ -142,8 +143,11 @@ TEST(StepGroup, KeepsTheOrderOfEachIntegrator) {
       MassProperties m{1, Vector3::Zero(), Matrix3::Identity()};
       const Vector3 at{0, 3.0 * static_cast<double>(i), 0};
       ids[i] = physics.add({.X_WB = {at + Vector3::UnitX()}, .mass = m});
-      // Far away, so that the spring pulls along x alone, to 1e-16.
-      physics.forces().add(DampedSpring{.a = {{}, at - Vector3{1e3, 0, 0}}, .b = {ids[i]}, .stiffness = 100, .rest_length = 1e3});
+      // It moves along the line of the spring, which never turns.
+      physics.forces().add(DampedSpring{.a = {{}, at - Vector3{1e3, 0, 0}},
+                                        .b = {ids[i]},
+                                        .stiffness = 100,
+                                        .rest_length = 1e3});
     }
     physics.set_integrator(ids[0], make_integrator("verlet"));
     physics.set_integrator(ids[1], make_integrator("rk4"));
