@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <pantin/physics/constraints/joint_axis.hpp>
 #include <pantin/physics/driver.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/pose.hpp>
@@ -63,6 +64,8 @@ struct JointDefinition {
   BodyId a{}, b{};                   ///< a null = the world
   Pose X_AJ{}, X_BJ{};               ///< J seen from the body origins (from the world where a is null)
   std::array<double, 3> damping{};   ///< viscous, by rate, >= 0 [N m s/rad] or [N s/m]
+  std::array<JointAxis, 3> axes{};   ///< by rate; none for Ball, Fixed, Driven
+  JointStrength strength{};
   double pitch{0};                   ///< [m/rad]; Screw only
   std::unique_ptr<Driver> driver{};  ///< Driven only: X_AB(t)
 };
