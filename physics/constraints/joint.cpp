@@ -27,6 +27,17 @@ std::string_view to_string(JointKind kind) noexcept {
   return name;
 }
 
+int axis_count(JointKind kind) noexcept {
+  int count = 0;
+  JointDefinition joint;
+  joint.kind = kind;
+  with_model(joint, [&count](auto model) {
+    using Model = decltype(model);
+    if (Model::kCoordinates == Model::kRates) count = Model::kRates;
+  });
+  return count;
+}
+
 double angle_about_z(const Quaternion& q, double near) noexcept {
   const double angle = 2 * std::atan2(q.z(), q.w());
   return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
@@ -56,21 +67,9 @@ JointDefinition defined(JointKind kind, auto& settings) {
   return joint;
 }
 
-/// Joints whose rates are those of their numbers: others have no axes of their own.
-std::size_t axes_of(JointKind kind) {
-  std::size_t count = 0;
-  JointDefinition joint;
-  joint.kind = kind;
-  with_model(joint, [&count](auto model) {
-    using Model = decltype(model);
-    if (Model::kCoordinates == Model::kRates) count = Model::kRates;
-  });
-  return count;
-}
-
 std::optional<SettingsProblem> problem_with_axes(const JointDefinition& joint) {
   const std::string subject = std::string{to_string(joint.kind)} + " '" + joint.name + "'";
-  const std::size_t count = axes_of(joint.kind);
+  const auto count = static_cast<std::size_t>(axis_count(joint.kind));
   for (std::size_t i = 0; i < joint.axes.size(); ++i) {
     if (i >= count && !(joint.axes[i] == JointAxis{})) {
       return SettingsProblem{ProblemCode::OutOfRange,

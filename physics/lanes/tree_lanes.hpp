@@ -37,6 +37,8 @@ struct LinkConstants {
   double R_PJ[9]{}, p_PJ[3]{};
   double mass{0}, moment[3]{}, inertia[6]{};  ///< as in TreeLink; xx yy zz xy xz yz
   double damping[6]{};
+  double armature[6]{};   ///< added to the inertia along each rate
+  bool is_loaded{false};  ///< Task::efforts are read for its rates
   double pitch{0};
 };
 
@@ -54,7 +56,8 @@ struct Task {
   std::size_t first{0};   ///< stage of the first lane
   double gravity[3]{};    ///< [m/s^2], uniform
   const double* motions{nullptr};
-  double* work{nullptr};  ///< as much as work_size says, 64-byte aligned
+  const double* efforts{nullptr};  ///< on rates, as v
+  double* work{nullptr};           ///< as much as work_size says, 64-byte aligned
 };
 
 /// A body without joints as the kernel reads it.
