@@ -33,12 +33,12 @@ struct LinkConstants {
   JointKind kind{JointKind::Fixed};
   bool first_child{false};  ///< of its parent, seen from the last link
   bool leaf{true};
+  bool is_damped{false};  ///< damping is not all 0
+  bool is_loaded{false};  ///< armature and Task::efforts count
   std::uint32_t q{0}, v{0};
   double R_PJ[9]{}, p_PJ[3]{};
   double mass{0}, moment[3]{}, inertia[6]{};  ///< as in TreeLink; xx yy zz xy xz yz
-  double damping[6]{};
-  double armature[6]{};   ///< added to the inertia along each rate
-  bool is_loaded{false};  ///< Task::efforts are read for its rates
+  double damping[3]{}, armature[3]{};         ///< by rate
   double pitch{0};
 };
 

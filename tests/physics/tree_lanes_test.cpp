@@ -72,6 +72,7 @@ std::vector<lanes::LinkConstants> random_tree(int count, std::uint32_t& coordina
     for (double& h : c.moment) h = 0.1 * any(random);
     for (int k = 0; k < 3; ++k) c.inertia[k] = 1 + any(random) / 3, c.inertia[3 + k] = 0.1 * any(random);
     for (double& d : c.damping) d = 0.1;
+    c.is_damped = true;
     c.is_loaded = i % 2 == 1;
     if (c.is_loaded) std::fill_n(c.armature, 3, 0.05);
     c.pitch = 0.2;
