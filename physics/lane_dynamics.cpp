@@ -101,6 +101,10 @@ void WorldDynamics::derivatives(const Stages& stages) {
   const bool plain = also == nullptr && !bodies_.state.loaded;
   const std::optional<Vector3> uniform = plain ? forces_.uniform_acceleration() : std::nullopt;
   if (uniform) free_forces(stages, *uniform);
+  const TreeLayout& layout = constraints_.layout();
+  constraints_.loads().write_efforts(
+      layout, stages.at, stages.q.data() + (stages.q.size() / count - layout.coordinates) * count,
+      stages.v.data() + (stages.v.size() / count - layout.rates) * count, efforts_.data());
   for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(kernel->lanes)) {
     lane_group(stages, *kernel, first, uniform);
   }
@@ -151,6 +155,7 @@ void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel
                    .stages = count,
                    .first = first,
                    .motions = lane_.motions.data(),
+                   .efforts = efforts_.data(),
                    .work = aligned(lane_.work)};
   if (uniform) std::copy_n(uniform->data(), 3, task.gravity);
   if (!uniform) {

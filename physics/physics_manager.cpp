@@ -117,7 +117,10 @@ void PhysicsManager::set_velocity(BodyId id, const Vector3& v_WBcm, const Vector
   impl_->constraints.prepare(bodies);
   bodies.place(i, bodies.X_WB(i), v_WBcm, w_WB);
   const std::int32_t link = impl_->constraints.layout().link_of_body[i];
-  if (link >= 0) bodies.state.edited[impl_->constraints.layout().tree_of(link)] = 1;
+  if (link < 0) return;
+  const std::size_t tree = impl_->constraints.layout().tree_of(link);
+  impl_->constraints.measure_rotors(bodies, impl_->constraints.layout().trees[tree]);
+  bodies.state.edited[tree] = 1;
 }
 
 void PhysicsManager::apply_force(BodyId id, const Vector3& f_W, const Vector3& p_WQ) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/motor.hpp>
 #include <pantin/physics/deflectors/deflector_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/ids.hpp>
@@ -56,7 +57,8 @@ class PhysicsManager {
   /// the rest follows; where it cannot, the next step says so.
   void set_pose(BodyId id, const Pose& X_WB);
   /// Of a simulated body. Velocities that joints do not allow are projected on them at the next step, momenta
-  /// kept as far as the joints let them.
+  /// kept as far as the joints let them. Rotors on the joints of the body turn along; in impulses, and where
+  /// a driven motion jumps, they keep their momentum.
   void set_velocity(BodyId id, const Vector3& v_WBcm, const Vector3& w_WB);
 
   /// Adds to the accumulators; they act on every step until clear_accumulators.
@@ -103,6 +105,17 @@ class PhysicsManager {
   /// Wrench that A exerts on B through the joint, at J, in W, at the present state: evaluated on demand.
   /// Where loops are redundant, the least that does it.
   [[nodiscard]] Wrench reaction(JointId id) const;
+  // Motors (joint_motors.cpp). They are settings, as force laws are, and no part of State.
+  /// From now on a motor acts along a number of a joint; in the place of one that does. Targets may be
+  /// changed at any time: nothing is laid out anew. The joint's kind must have that number: not ball, fixed,
+  /// driven.
+  void set_motor(JointId id, const MotorSettings& motor, int axis = 0);
+  void clear_motor(JointId id, int axis = 0);
+  [[nodiscard]] std::optional<MotorSettings> motor(JointId id, int axis = 0) const;
+  /// By which spring, damping and motor act on B along each number, all together, at the present state [N m
+  /// or N]; of a ball by axis of B's joint frame. Not what the joint itself holds: that is its reaction.
+  [[nodiscard]] JointNumbers joint_effort(JointId id) const;
+
   /// Greatest distance [m] and angle [rad] by which body poses miss their joints.
   [[nodiscard]] JointDrift joint_drift() const;
 

@@ -102,7 +102,7 @@ double PhysicsManager::Impl::next_break(double t) const {
   for (const TreeLink& link : constraints.layout().links) {
     if (link.driver != nullptr) next = std::min(next, link.driver->next_break(t));
   }
-  return next;
+  return std::min(next, constraints.loads().next_break(t));
 }
 
 void PhysicsManager::Impl::pass_break() {
@@ -230,6 +230,9 @@ Energy PhysicsManager::Impl::energy() const {
     energy.kinetic += 0.5 * (s.linear_momentum.dot(k.v_WBcm) + s.angular_momentum.dot(k.w_WB));
   }
   energy.potential = forces.potential_energy(bodies.now());
+  const Energy joints = constraints.energy(bodies);
+  energy.kinetic += joints.kinetic;
+  energy.potential += joints.potential;
   return energy;
 }
 

@@ -9,8 +9,8 @@
 namespace pantin {
 
 struct Energy {
-  double kinetic{0};    ///< of all simulated bodies [J]
-  double potential{0};  ///< of the laws that have one [J]
+  double kinetic{0};    ///< of all simulated bodies, and of rotors on their joints [J]
+  double potential{0};  ///< of the laws that have one, and of springs on joints [J]
   [[nodiscard]] double total() const { return kinetic + potential; }
 };
 

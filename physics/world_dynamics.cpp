@@ -33,6 +33,8 @@ void WorldDynamics::begin() {
   has_animated_ =
       std::find(bodies_.kinds.begin(), bodies_.kinds.end(), BodyKind::Animated) != bodies_.kinds.end();
   constraints_.ground_motions(bodies_, {bodies_.state.time, Side::After}, grounds_);
+  cut_near_ = bodies_.state.cut_coordinates;
+  efforts_.resize(constraints_.loads().on_links() ? kMostNodes * layout.rates : 0);
   lane_.fits = false;
 }
 
@@ -151,6 +153,9 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
   }
   const TreeLayout& layout = constraints_.layout();
   Articulated& kernel = constraints_.kernel();
+  const JointLoads& loads = constraints_.loads();
+  loads.write_efforts(layout, {&at, 1}, q.data() + (q.size() - layout.coordinates),
+                      v.data() + (v.size() - layout.rates), efforts_.data());
   for (const Tree& tree : layout.trees) {
     kernel.load(layout, tree);
     for (std::uint32_t l = tree.links_begin; l < tree.links_end; ++l) {
@@ -160,8 +165,8 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
                           stage_[i].p_WBcm);
       }
     }
-    if (tree.has_closures()) ClosureSolver::add_damping(layout, tree, kernel, grounds_, at);
-    kernel.eliminate(layout, tree, v.last(layout.rates));
+    if (loads.on_closures()) loads.add_to_cut_joints(layout, tree, kernel, grounds_, at, cut_near_);
+    kernel.eliminate(layout, tree, v.last(layout.rates), efforts_);
     kernel.substitute(layout, tree, v_dot.last(layout.rates));
     if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout.rates));
   }
@@ -266,32 +271,13 @@ void WorldDynamics::write_back(double t) {
         std::equal(q + tree.q_begin, q + tree.q_end, state.coordinates.begin() + tree.q_begin) &&
         std::equal(v + tree.v_begin, v + tree.v_end, state.rates.begin() + tree.v_begin);
     if (same && (!tree.follows_driver || is_at_rest(tree, end))) continue;
+    const auto turns_begin = static_cast<std::ptrdiff_t>(kMostCoordinates * tree.closures_begin),
+               turns_end = static_cast<std::ptrdiff_t>(kMostCoordinates * tree.closures_end);
+    std::copy(cut_near_.begin() + turns_begin, cut_near_.begin() + turns_end,
+              state.cut_coordinates.begin() + turns_begin);
     std::copy(q + tree.q_begin, q + tree.q_end, state.coordinates.begin() + tree.q_begin);
     std::copy(v + tree.v_begin, v + tree.v_end, state.rates.begin() + tree.v_begin);
     constraints_.commit(bodies_, tree, grounds_, end);
-  }
-}
-
-void WorldDynamics::accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
-                                      std::vector<Vector3>& a_cm) {
-  begin();
-  std::vector<double> v_dot(v_.size());
-  evaluate({bodies_.state.time, Side::After}, coordinates_now(), velocities_now(), {}, v_dot);
-  external = wrenches_;
-  alpha.assign(bodies_.size(), Vector3::Zero());
-  a_cm.assign(bodies_.size(), Vector3::Zero());
-  const TreeLayout& layout = constraints_.layout();
-  const auto eigen = [](const kernel::Vec3<double>& x) { return Vector3{x.x, x.y, x.z}; };
-  for (std::size_t l = 0; l < layout.links.size(); ++l) {
-    const LinkWork& link = constraints_.kernel().link(static_cast<std::int32_t>(l));
-    const Vector3 al = eigen(link.al + link.dal), a = eigen(link.a + link.da), w = eigen(link.w),
-                  p = eigen(link.p);
-    for (std::uint32_t m = layout.links[l].members_begin; m < layout.links[l].members_end; ++m) {
-      const std::uint32_t i = layout.members[m].body;
-      const Vector3 c = stage_[i].p_WBcm - p;
-      alpha[i] = al;
-      a_cm[i] = a + al.cross(c) + w.cross(w.cross(c));
-    }
   }
 }
 

@@ -110,6 +110,8 @@ class WorldDynamics final : public Dynamics {
   std::vector<BodyKinematics> stage_{};
   std::vector<Wrench> wrenches_{};
   std::vector<RigidMotion> grounds_{};
+  std::vector<double> efforts_{};   ///< on rates, of all stages; empty where joints bear no loads
+  std::vector<double> cut_near_{};  ///< numbers of cut joints where the last part of the update ended
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };

@@ -1,6 +1,7 @@
 // What closed loops of joints add to the dynamics of trees.
 #include <algorithm>
 
+#include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
@@ -26,17 +27,25 @@ void WorldDynamics::settle_loops(Instant at, std::span<double> q, std::span<doub
     loops.settle({layout, tree, constraints_.kernel(), grounds_, at}, q, v);
     const OpenLoop open = loops.open_loop(layout, tree);
     if (open.joint >= 0) open_loop_ = open;
+    for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
+      const Closure& closure = layout.closures[c];
+      measure(closure, relative(motion_of(closure, constraints_.kernel(), grounds_, at)),
+              cut_near_.data() + std::size_t{kMostCoordinates} * c);
+    }
   }
 }
 
 CutWrench WorldDynamics::cut_wrench(std::uint32_t c) const {
   const Closure& closure = constraints_.layout().closures[c];
-  // Cut joints are damped at the motion that the kernel holds.
+  // Springs, motors and damping act at the motion that the kernel holds.
   const ClosureMotion motion =
       motion_of(closure, constraints_.kernel(), grounds_, {bodies_.state.time, Side::After});
-  const ClosureWrench held = constraints_.loops().solver().wrench(c), damped = damping_of(closure, motion);
+  const ClosureWrench held = constraints_.loops().solver().wrench(c);
+  const ClosureWrench loaded = constraints_.loads().on_closure(
+      constraints_.layout(), c, motion, {bodies_.state.time, Side::After},
+      bodies_.state.cut_coordinates.data() + std::size_t{kMostCoordinates} * c);
   const auto eigen = [](const kernel::Vec3<double>& x) { return Vector3{x.x, x.y, x.z}; };
-  return {eigen(motion.b.p), eigen(held.force + damped.force), eigen(held.torque + damped.torque)};
+  return {eigen(motion.b.p), eigen(held.force + loaded.force), eigen(held.torque + loaded.torque)};
 }
 
 }  // namespace pantin

@@ -10,6 +10,8 @@ bool conserves_energy(const PhysicsManager& physics) {
   const std::vector<JointId> joints = physics.joints();
   return std::none_of(joints.begin(), joints.end(), [&](JointId id) {
     const JointDefinition& joint = physics.joint(id);
+    for (int axis = 0; axis < axis_count(joint.kind); ++axis)
+      if (physics.motor(id, axis)) return true;
     return joint.damping != std::array<double, 3>{} || joint.kind == JointKind::Driven ||
            is_animated(joint.a) || is_animated(joint.b);
   });

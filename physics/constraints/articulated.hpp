@@ -7,8 +7,8 @@
 //   outward   r = r0 + translation(q);  w = w_p + S_a v;  v = v_p + w_p x r + S_l v
 //             al = al_p + w_p x S_a v;  a = a_p + al_p x r + w_p x (w_p x r) + 2 w_p x S_l v          (v' =
 //             0) p = [A al + w x A w + h x a;  m a + al x h + w x (w x h)] - external wrench,  h = m c
-//   inward    U = I^A S;  D = S^T U;  u = tau - S^T p;  M = I^A - U D^-1 U^T;  pi = p + U D^-1 u, shifted to
-//   the parent:
+//   inward    U = I^A S;  D = S^T U + armature;  u = tau - S^T p;  M = I^A - U D^-1 U^T;  pi = p + U D^-1 u,
+//   shifted to the parent:
 //             M' = M_ll;  B' = B + [r] M_ll;  A' = A - B [r] + [r] B'^T;  p_a += pi_a + r x pi_l;  p_l +=
 //             pi_l
 //   outward   da' = (dal_p, da_p + dal_p x r);  v' = D^-1 (u - U^T da');  da = da' + S v'
@@ -59,8 +59,10 @@ class Articulated {
   void load_inertia(const TreeLayout& layout, const Tree& tree);
   /// External wrench on a link: force, and torque about the point `p_WQ`.
   void add_wrench(std::int32_t link, const Vector3& force, const Vector3& torque, const Vector3& p_WQ);
-  /// Damping torques -d v enter here, with the rates given (empty: none).
-  void eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v);
+  /// Damping torques -d v enter here, with the rates given (empty: none), and what else acts on the rates of
+  /// loaded links (empty: nothing; other links' are not read).
+  void eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v,
+                 std::span<const double> efforts = {});
   /// v' (or the rates, after load_momenta) of a tree, into the vector of all trees.
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
@@ -94,7 +96,8 @@ class Articulated {
   using Vec = kernel::Vec3<double>;
   void start_inertia(const TreeLink& link, LinkWork& work) const;
   template <int N>
-  void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v);
+  void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v,
+                      std::span<const double> efforts);
   template <int N>
   void reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a, Vec& p_l,
                    double* y, Reduction& sum) const;

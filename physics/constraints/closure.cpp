@@ -23,44 +23,6 @@ Mat3<double> mat(const Quaternion& q) {
 
 double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 
-/// Motion of a frame fixed at (R_LJ, p_LJ) in another.
-FrameMotion carried(const FrameMotion& L, const Mat3<double>& R_LJ, const Vec& p_LJ) {
-  const Vec r = L.R * p_LJ, w_x_r = cross(L.w, r);
-  FrameMotion J;
-  J.R = L.R * R_LJ;
-  J.p = L.p + r;
-  J.w = L.w, J.al = L.al;
-  J.v = L.v + w_x_r;
-  J.a = L.a + cross(L.al, r) + cross(L.w, w_x_r);
-  return J;
-}
-
-/// Motion of B in the world from that of A and of B in A.
-FrameMotion composed(const FrameMotion& A, const RigidMotion& B) {
-  FrameMotion out = carried(A, mat(B.X_AB.q), vec(B.X_AB.p));
-  const Vec v = A.R * vec(B.v_AB), w = A.R * vec(B.w_AB);
-  out.w += w;
-  out.v += v;
-  out.al += cross(A.w, w) + A.R * vec(B.alpha_AB);
-  out.a += 2.0 * cross(A.w, v) + A.R * vec(B.a_AB);
-  return out;
-}
-
-FrameMotion motion_of(const ClosureEnd& end, const Articulated& kernel,
-                      std::span<const RigidMotion> grounds) {
-  FrameMotion L;
-  L.R = Mat3<double>::identity();
-  if (end.link >= 0) {
-    const LinkWork& work = kernel.link(end.link);
-    L = {work.R, work.p, work.w, work.v, work.al + work.dal, work.a + work.da};
-  } else if (end.ground >= 0) {
-    const RigidMotion& ground = grounds[static_cast<std::size_t>(end.ground)];
-    L = {mat(ground.X_AB.q), vec(ground.X_AB.p),   vec(ground.w_AB),
-         vec(ground.v_AB),   vec(ground.alpha_AB), vec(ground.a_AB)};
-  }
-  return carried(L, end.R_LJ, end.p_LJ);
-}
-
 /// Writes the rows of one closure.
 class Rows {
  public:
@@ -116,7 +78,16 @@ class Rows {
     row.rate -= pitch * dot(z, w);
     row.acceleration -= pitch * (dot(z, b_.al - a_.al) + dot(cross(a_.w, z), w));
   }
-  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(next_ - rows_); }
+  /// Rotor that turns, relative to A, about a column of the joint given in the world and carried by A or B.
+  void turning_rotor(const Vec& c, const Vec& w_carrier, double armature) {
+    const Vec w = b_.w - a_.w;
+    const double acceleration = dot(c, b_.al - a_.al) + dot(cross(w_carrier, c), w);
+    *next_++ = {{{}, c, b_.p}, 0, 0, acceleration, 1, 1, 1 / armature, dot(c, w)};
+  }
+  /// The same of one that moves along an axis of A.
+  void sliding_rotor(const Vec& n, double armature) {
+    *next_++ = {{n, {}, b_.p}, 0, 0, dot(n, acceleration_), 1, 1, 1 / armature, dot(n, rate_)};
+  }
 
  private:
   const FrameMotion &a_, &b_;
@@ -173,7 +144,8 @@ Closure make_closure(TreeLayout& layout, const BodyStore& bodies, const JointDef
   closure.a = end_of(layout, bodies, joint.a, joint.X_AJ);
   closure.b = end_of(layout, bodies, joint.b, joint.X_BJ);
   closure.pitch = joint.pitch;
-  closure.damping = joint.damping;
+  for (std::size_t i = 0; i < 3; ++i) closure.armature[i] = joint.axes[i].armature;
+  for (const double armature : closure.armature) closure.rows += armature > 0 ? 1 : 0;
   closure.driver = joint.driver.get();
   append_path(layout, closure);
   return closure;
@@ -211,12 +183,29 @@ void add_closures(TreeLayout& layout, const BodyStore& bodies, std::span<const J
   }
 }
 
-ClosureMotion motion_of(const Closure& closure, const Articulated& kernel,
-                        std::span<const RigidMotion> grounds, Instant at) {
-  ClosureMotion motion{motion_of(closure.a, kernel, grounds), motion_of(closure.b, kernel, grounds)};
-  if (closure.driver != nullptr) motion.a = composed(motion.a, closure.driver->motion(at.t, at.side));
-  return motion;
+namespace {
+
+void write_rotors(const Closure& closure, const ClosureMotion& motion, Rows& rows) {
+  if (closure.armature == std::array<double, 3>{}) return;
+  const RelativeMotion B = relative(motion);
+  with_model(closure, [&](auto model) {
+    using Model = decltype(model);
+    if constexpr (Model::kRates > 0 && Model::kRates <= 3) {
+      Vec angular[Model::kRates], linear[Model::kRates];
+      model.columns(B.R, angular, linear);
+      for (int j = 0; j < Model::kRates; ++j) {
+        const double armature = closure.armature[static_cast<std::size_t>(j)];
+        const bool on_b = closure.kind == JointKind::Universal && j == 1;
+        if (armature == 0) continue;
+        if (dot(angular[j], angular[j]) > 0)
+          rows.turning_rotor(motion.a.R * angular[j], on_b ? motion.b.w : motion.a.w, armature);
+        else rows.sliding_rotor(motion.a.R * linear[j], armature);
+      }
+    }
+  });
 }
+
+}  // namespace
 
 void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<ClosureRow> out) {
   Rows rows{motion, out.data()};
@@ -242,37 +231,7 @@ void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<C
       if (closure.kind == JointKind::Pivot) rows.same_z();
       if (closure.kind == JointKind::Universal) rows.square(2, 0);
   }
-}
-
-ClosureWrench damping_of(const Closure& closure, const ClosureMotion& m) {
-  // The columns of a joint are at right angles, so that the generalised forces of damping are the components
-  // of one wrench. On a screw it is all torque.
-  ClosureWrench wrench;
-  const FrameMotion &a = m.a, &b = m.b;
-  const Vec w = transposed_times(a.R, b.w - a.w);
-  const Vec v = transposed_times(a.R, b.v - a.v - cross(a.w, b.p - a.p));
-  const Mat3<double> R{[&] {
-    Mat3<double> to;
-    for (int j = 0; j < 3; ++j) {
-      const Vec column = transposed_times(a.R, b.R.column(j));
-      to.m[j] = column.x, to.m[3 + j] = column.y, to.m[6 + j] = column.z;
-    }
-    return to;
-  }()};
-  with_model(closure, [&](auto model) {
-    using Model = decltype(model);
-    if constexpr (Model::kRates > 0 && Model::kRates <= 3) {
-      Vec angular[Model::kRates], linear[Model::kRates];
-      model.columns(R, angular, linear);
-      for (int j = 0; j < Model::kRates; ++j) {
-        const double c = closure.damping[static_cast<std::size_t>(j)];
-        const bool turns = dot(angular[j], angular[j]) > 0;
-        if (turns) wrench.torque += (-c * dot(angular[j], w)) * (a.R * angular[j]);
-        else wrench.force += (-c * dot(linear[j], v)) * (a.R * linear[j]);
-      }
-    }
-  });
-  return wrench;
+  write_rotors(closure, motion, rows);
 }
 
 }  // namespace pantin

@@ -21,7 +21,7 @@
 
 namespace pantin {
 
-constexpr std::uint32_t kMostRows = 6;
+constexpr std::uint32_t kMostRows = 6;  ///< besides those of rotors
 
 /// A frame's motion in the world.
 struct FrameMotion {
@@ -37,6 +37,9 @@ struct ClosureRow {
   double acceleration{0};           ///< of the gap
   double size{0};       ///< of the numbers whose difference the gap is: what rounding is relative to
   double rate_size{0};  ///< the same of the rate
+  // Of a rotor: it acts by -armature times the acceleration of its number, so the row gives way.
+  double compliance{0};  ///< 1 / armature; 0 of a row that holds
+  double turning{0};     ///< rate of the number; gap and rate of the row are 0
 };
 
 /// Appends the closures of the cut joints to a layout whose links are complete.
@@ -56,13 +59,21 @@ struct ClosureMotion {
 [[nodiscard]] ClosureMotion motion_of(const Closure& closure, const Articulated& kernel,
                                       std::span<const RigidMotion> grounds, Instant at);
 
-/// The rows of a closure.
+/// The rows of a closure, those of rotors last.
 void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<ClosureRow> rows);
 
-/// Force at Jb's origin and torque by which damping in a cut joint acts on B.
+/// Jb in Ja, in axes of Ja.
+struct RelativeMotion {
+  kernel::Mat3<double> R{};
+  kernel::Vec3<double> p{}, w{}, v{};
+};
+[[nodiscard]] RelativeMotion relative(const ClosureMotion& motion);
+/// The numbers of a cut joint, in the turn nearest to those that `q` holds.
+void measure(const Closure& closure, const RelativeMotion& motion, double* q);
+
+/// Force at Jb's origin and torque by which a cut joint acts on B.
 struct ClosureWrench {
   kernel::Vec3<double> force{}, torque{};
 };
-[[nodiscard]] ClosureWrench damping_of(const Closure& closure, const ClosureMotion& motion);
 
 }  // namespace pantin

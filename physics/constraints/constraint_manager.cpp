@@ -74,6 +74,8 @@ void ConstraintManager::lay_out_anew(BodyStore& bodies) {
   std::vector<const JointDefinition*> joints;
   for (const auto& joint : joints_) joints.push_back(joint.get());
   layout_ = lay_out(bodies, joints);
+  loads_.list(layout_, joints_, motors_);
+  efforts_.assign(layout_.rates, 0.0);
   kernel_.resize(layout_);
   loops_.resize(layout_);
   open_.assign(layout_.trees.size(), {});
@@ -118,6 +120,7 @@ void ConstraintManager::measure_anew(BodyStore& bodies, std::size_t t, Instant n
              (X_WL.rotation() - R).norm() > kSnapTolerance;
   }
   if (missed) write_state(bodies, tree, true);
+  measure_rotors(bodies, tree);
   measure_cut_joints(bodies, tree);
 }
 
@@ -141,15 +144,17 @@ void ConstraintManager::prepare(BodyStore& bodies) {
 void ConstraintManager::project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds,
                                 Instant at) {
   State& state = bodies.state;
+  keep_cut_rotors(bodies, tree, grounds, at);
   kernel_.place(layout_, tree, grounds, at, state.coordinates, zero_rates_);
   kernel_.load_momenta(layout_, tree, bodies.mass, state.bodies);
-  kernel_.eliminate(layout_, tree, {});
+  kernel_.eliminate(layout_, tree, {}, rotor_momenta(state.rates));
   kernel_.substitute(layout_, tree, state.rates);
   if (tree.has_closures()) {
     // The impulses of cut joints belong to the same factor.
     kernel_.place(layout_, tree, grounds, at, state.coordinates, state.rates);
     ClosureSolver& solver = loops_.solver();
     solver.measure(layout_, tree, kernel_, grounds, at);
+    solver.compare_rotor_rates(tree);
     solver.factor(layout_, tree, kernel_);
     solver.solve(layout_, tree, ClosureLevel::Velocity, kernel_);
     kernel_.substitute(layout_, tree, state.rates);

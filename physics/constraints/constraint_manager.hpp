@@ -10,6 +10,7 @@
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/articulated.hpp>
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/joint_loads.hpp>
 #include <pantin/physics/constraints/loop_closer.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 #include <pantin/physics/step_report.hpp>
@@ -29,6 +30,18 @@ class ConstraintManager {
   [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;
   [[nodiscard]] bool closes_loop(const BodyStore& bodies, BodyId a, BodyId b) const;
 
+  // Springs, rotors and motors (joint_energy.cpp); an axis must be one of the joint's.
+  void set_motor(std::size_t j, int axis, const MotorSettings& motor);
+  void clear_motor(std::size_t j, int axis);
+  [[nodiscard]] std::optional<MotorSettings> motor(std::size_t j, int axis) const;
+  [[nodiscard]] const JointLoads& loads() const noexcept { return loads_; }
+  /// Of springs and rotors.
+  [[nodiscard]] Energy energy(const BodyStore& bodies) const;
+  /// Of spring, motors and damping along each number, on B.
+  [[nodiscard]] JointNumbers effort(const BodyStore& bodies, std::size_t j) const;
+  /// Rotors turn as the bodies of a tree do, whose velocities were set.
+  void measure_rotors(BodyStore& bodies, const Tree& tree) const;
+
   // Layout
   /// Bodies, joints, kinds or masses are about to change: keeps what is known of the coordinates, by joint.
   void stale(const BodyStore& bodies);
@@ -41,7 +54,8 @@ class ConstraintManager {
   [[nodiscard]] LoopCloser& loops() noexcept { return loops_; }
 
   /// Rates of a tree from the momenta of its bodies: the motion that the joints allow and that has the same
-  /// momentum along it (an articulated impulse solve). Writes velocities and momenta.
+  /// momentum along it (an articulated impulse solve); rotors keep the momentum of the rates in State.
+  /// Writes velocities and momenta.
   void project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
   /// Writes poses, velocities and momenta of a tree's bodies from its coordinates and rates.
   void commit(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
@@ -81,6 +95,10 @@ class ConstraintManager {
   [[nodiscard]] Pose link_pose(const BodyStore& bodies, const TreeLink& link) const;
   void write_state(BodyStore& bodies, const Tree& tree, bool poses) const;
   void measure_cut_joints(BodyStore& bodies, const Tree& tree) const;
+  [[nodiscard]] std::span<const double> rotor_momenta(std::span<const double> rates);
+  void keep_cut_rotors(const BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds,
+                       Instant at);
+  void list_storing();
   void lay_out_anew(BodyStore& bodies);
   void measure_anew(BodyStore& bodies, std::size_t tree, Instant now);
   [[nodiscard]] TreeView view(const Tree& tree, std::span<const RigidMotion> grounds, Instant at) {
@@ -95,6 +113,9 @@ class ConstraintManager {
 
   std::vector<std::unique_ptr<JointDefinition>> joints_{};
   std::vector<JointId> ids_{};
+  std::vector<std::unique_ptr<JointMotors>> motors_{};  ///< by joint position; null where there is none
+  std::vector<std::uint32_t> storing_{};  ///< positions of joints with springs or rotors, ascending
+  JointLoads loads_{};
   std::vector<Numbers> last_{};               ///< by joint position
   std::vector<std::uint32_t> position_of_{};  ///< JointId::index -> position
   std::vector<std::uint32_t> generation_{};
@@ -107,7 +128,7 @@ class ConstraintManager {
   std::vector<OpenLoop> open_{};  ///< by tree
   bool stale_{true};
   std::vector<RigidMotion> grounds_{};
-  std::vector<double> zero_rates_{};
+  std::vector<double> zero_rates_{}, efforts_{};
 };
 
 }  // namespace pantin

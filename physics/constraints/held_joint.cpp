@@ -49,6 +49,7 @@ struct HeldJoint {
     Closure closure = make_closure(layout, bodies, joint, static_cast<std::int32_t>(j));
     closure.kind = JointKind::Driven;
     closure.rows = kMostRows;
+    closure.armature = {};
     closure.driver = &driver;
     layout.closures.push_back(closure);
     const auto count = static_cast<std::uint32_t>(layout.closures.size());

@@ -9,10 +9,12 @@ namespace pantin {
 /// A's joint frame [m], angle about z [rad].
 struct PlanarSettings {
   std::string name{};
-  BodyId a{}, b{};            ///< a null = world; b must be a body
-  Pose X_AJ{}, X_BJ{};        ///< J seen from the body origins
-  double linear_damping{0};   ///< along x and y [N s/m], >= 0
-  double angular_damping{0};  ///< [N m s/rad], >= 0
+  BodyId a{}, b{};                  ///< a null = world; b must be a body
+  Pose X_AJ{}, X_BJ{};              ///< J seen from the body origins
+  double linear_damping{0};         ///< along x and y [N s/m], >= 0
+  double angular_damping{0};        ///< [N m s/rad], >= 0
+  std::array<JointAxis, 3> axes{};  ///< of x, y, angle: stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(PlanarSettings settings);
 

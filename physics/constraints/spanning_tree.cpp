@@ -2,6 +2,7 @@
 // J. 36, 1389 (1957)), so that the order among equals is free to keep trees shallow.
 #include <pantin/physics/constraints/spanning_tree.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <queue>
 
@@ -10,6 +11,14 @@
 namespace pantin {
 
 namespace {
+
+/// Rows that a joint costs where it is cut. A rotor there would be one more row that has to be told what it
+/// brings along into an impulse: other joints are cut first.
+int worth_keeping(const JointDefinition& joint) {
+  const bool turns_rotor =
+      std::any_of(joint.axes.begin(), joint.axes.end(), [](const JointAxis& a) { return a.armature > 0; });
+  return row_count(joint.kind) + (turns_rotor ? 6 : 0);
+}
 
 /// Bodies as nodes, and one more node for all that is not simulated.
 class Spanner {
@@ -129,7 +138,7 @@ class Spanner {
   void offer(std::size_t from) {
     for (std::size_t k = first_[from]; k < first_[from + 1]; ++k) {
       const std::size_t j = neighbours_[k], to = ends_[j].first == from ? ends_[j].second : ends_[j].first;
-      if (reached_[to] == 0) open_.push({row_count(joints_[j]->kind), depth_[from], j, to});
+      if (reached_[to] == 0) open_.push({worth_keeping(*joints_[j]), depth_[from], j, to});
     }
   }
 

@@ -142,7 +142,11 @@ class Builder {
     link.joint = edge.joint;
     link.kind = joint.kind;
     link.reversed = !edge.to_b;
-    link.damping = joint.damping;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t from = link.reversed && link.kind == JointKind::Universal && i < 2 ? 1 - i : i;
+      link.damping[i] = joint.damping[from], link.armature[i] = joint.axes[from].armature;
+    }
+    if (link.reversed && link.kind == JointKind::Planar) link.damping = {};  // JointLoads does it
     link.pitch = joint.pitch;
     link.driver = joint.driver.get();
     Pose X_JL;  // from the joint's own frames to the kernel's

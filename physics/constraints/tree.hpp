@@ -37,7 +37,9 @@ struct TreeLink {
   kernel::Vec3<double> moment{};   ///< mass * centre of gravity from L's origin, in L [kg m]
   kernel::Sym3<double> inertia{};  ///< about L's origin, in L [kg m^2]
   std::array<double, 3> damping{};
-  double pitch{0};  ///< [m/rad] of a screw
+  std::array<double, 3> armature{};  ///< by rate, as the link has them [kg m^2 or kg]
+  bool is_loaded{false};             ///< a spring, a motor or a rotor acts on a rate
+  double pitch{0};                   ///< [m/rad] of a screw
   const Driver* driver{nullptr};
 };
 
@@ -62,8 +64,8 @@ struct Closure {
   JointKind kind{JointKind::Fixed};
   std::uint32_t rows{0};
   ClosureEnd a{}, b{};
-  double pitch{0};  ///< [m/rad] of a screw
-  std::array<double, 3> damping{};
+  double pitch{0};                   ///< [m/rad] of a screw
+  std::array<double, 3> armature{};  ///< by rate of the joint
   const Driver* driver{nullptr};
   std::uint32_t path_begin{0}, path_end{0};  ///< links that it moves, children first
   std::uint32_t path_rates{0};
