@@ -163,7 +163,8 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
     if (tree.has_closures()) ClosureSolver::add_damping(layout, tree, kernel, grounds_, at);
     kernel.eliminate(layout, tree, v.last(layout.rates));
     kernel.substitute(layout, tree, v_dot.last(layout.rates));
-    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout.rates));
+    if (!tree.has_closures()) continue;
+    evaluate_loops(at, tree, q.last(layout.coordinates), v.last(layout.rates), v_dot.last(layout.rates));
   }
 }
 
