@@ -96,8 +96,8 @@ class PhysicsManager {
   [[nodiscard]] JointNumbers joint_value(JointId id) const;
   /// pivot [rad/s], slider [m/s], ball: angular velocity of B in A in axes of B's joint frame [rad/s].
   [[nodiscard]] JointNumbers joint_rate(JointId id) const;
-  /// Moves B and all it carries; in a loop, and where joints are coupled, the rest follows, by the shortest way that its inertia knows. A
-  /// value or rate that the loop does not allow breaks the contract.
+  /// Moves B and all it carries; in a loop, and where joints are coupled, the rest follows, by the shortest
+  /// way that its inertia knows. A value or rate that these do not allow breaks the contract.
   void set_joint_value(JointId id, const JointNumbers& value);
   /// The same for values that come from outside: where the loop does not allow it, nothing changes.
   [[nodiscard]] bool try_joint_value(JointId id, const JointNumbers& value);

@@ -64,7 +64,7 @@ class WorldDynamics final : public Dynamics {
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] bool has_constraints() const override { return !constraints_.layout().closures.empty(); }
-  /// A loop that the state settled last leaves open.
+  /// A loop or coupling that the state settled last leaves open.
   [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,

@@ -1,4 +1,4 @@
-// What closed loops of joints add to the dynamics of trees.
+// What closed loops and couplings of joints add to the dynamics of trees.
 #include <algorithm>
 
 #include <pantin/physics/world_dynamics.hpp>

@@ -80,8 +80,8 @@ class Articulated {
     double squares{0};  ///< y^T d^-1 y: what the row's wrenches do to the row itself
     double bound{0};    ///< what they could, were every lever at its best
   };
-  /// What the unit wrenches and efforts of a row leave at the joints of the closure's path on their way to the
-  /// ground, multiplied by L^-1. `passing` has room for the path.
+  /// What the unit wrenches and efforts of a row leave at the joints of the closure's path on their way to
+  /// the ground, multiplied by L^-1. `passing` has room for the path.
   Reduction reduce(const TreeLayout& layout, const Closure& closure, const RowWrench& row,
                    std::span<Passing> passing, std::span<double> y) const;
   /// y^T d^-1 z of one link.

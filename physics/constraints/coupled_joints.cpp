@@ -66,7 +66,7 @@ SettingsProblem ConstraintManager::problem_with_coupling(const OpenLoop& loop) c
                               a.name + "' and " + std::string{to_string(b.kind)} + " '" + b.name + "' ";
   if (layout_.cut_coupling == loop.coupling) {
     return {ProblemCode::OpenLoop,
-            subject + "cannot be held: all joints of a closed loop are coupled, and one of them has to be cut",
+            subject + "cannot be held: all joints of a closed loop are coupled, and one has to be cut",
             "leave one joint of the loop uncoupled"};
   }
   return {ProblemCode::OpenLoop,

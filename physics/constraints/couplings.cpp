@@ -39,8 +39,8 @@ bool Couplings::contains(CouplingId id) const noexcept {
 
 std::size_t Couplings::at(CouplingId id) const {
   PANTIN_EXPECTS(contains(id), "coupling " + std::to_string(id.index) + "." + std::to_string(id.generation) +
-                                   " does not exist (any more): it is null, or was removed, maybe with one of "
-                                   "its joints");
+                                   " does not exist (any more): it is null, or was removed, maybe with one "
+                                   "of its joints");
   return static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), id) - ids_.begin());
 }
 

@@ -30,7 +30,7 @@ TEST(HandOver, SaysWhatOfLinksIsNotEnforced) {
   }
   const std::vector<Diagnostic> notes = s.bridge.hand_over(top, Scope::Subtree);
   EXPECT_TRUE(says(notes, "top", "3 joint(s) here have limits, which are not enforced while simulated"));
-  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not held while they are simulated"));
+  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not held while they are"));
 }
 
 TEST(HandOver, KeepsTheValueOfALinkWithItsTurns) {
