@@ -141,7 +141,8 @@ void ConstraintManager::set_rate_in_loop(BodyStore& bodies, std::size_t j, const
   if (!held.closer.project(with_it, bodies.state.coordinates, bodies.state.rates)) {
     bodies.state.rates = before;
     PANTIN_EXPECTS(false, "joint '" + joint.name +
-                              "' cannot move at this rate with its loop closed; choose one that it allows");
+                              "' cannot move at this rate with its loop closed and its couplings held; "
+                              "choose one that these allow");
   }
   commit(bodies, layout_.trees[t], grounds_, now);
 }
