@@ -135,8 +135,11 @@ class Bridge {
   /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link
   /// is joined to the nearest bound node above; if there is none, to the world, or to its parent if that is
   /// played. Subtree takes the node and all below it that declare mass or have a link that moves; what
-  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet;
-  /// animated links that mimic a simulated one follow it, their bodies one advance later.
+  /// follows them rigidly lends them its mass. Limits and friction of links are not enforced yet. A link that
+  /// mimics another is geared to it exactly while both are simulated, whichever came first: each moves the
+  /// other. An animated link that mimics a simulated one follows it, its body one advance later; a simulated
+  /// one that mimics an animated one moves on its own, which is said. A gear that cannot be met is left out,
+  /// which is said too.
   std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
                                     const HandOverSettings& settings = {});
   /// Simulated nodes are animated again. One that a clip moves, or moves with, is led back to it from where
@@ -168,7 +171,8 @@ class Bridge {
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
   /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
-  /// set. A value that the joint's loop cannot take is an error that names the joint and changes nothing.
+  /// set, unless both are simulated: then its leader follows it. A value that the joint's loop cannot take is an
+  /// error that names the joint and changes nothing.
   std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
 
   // Look-up

@@ -32,6 +32,7 @@ struct Bridge::Impl {
   std::vector<PlayedEvent> passed{};     ///< since the last advance
   std::unordered_map<NodeId, NodeBody> node_bodies{};
   Followers followers{};  ///< links that mimic others of their model
+  std::unordered_map<NodeId, CouplingId> gears{};  ///< of simulated followers, to simulated leaders
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
   std::vector<Toggle> toggles{};      ///< by time
@@ -101,6 +102,21 @@ struct Bridge::Impl {
   [[nodiscard]] Diagnostic not_allowed(const Binding& binding) const;
   void remember_written(Binding& binding) const;
   void hold_player(const Binding& binding);
+
+  // Simulated links that mimic simulated ones (mimic_gears.cpp)
+  /// Makes the couplings agree with who is simulated.
+  void couple(std::vector<Diagnostic>& notes);
+  [[nodiscard]] bool is_held_by_gear(NodeId follower) const;
+  [[nodiscard]] bool has_link_joint(NodeId id) const;
+  /// The gear of a simulated follower to the nearest simulated one of those that lead it, over animated links
+  /// that follow; a null if there is none.
+  [[nodiscard]] GearSettings wanted_gear(const Binding& follower,
+                                         const std::unordered_map<NodeId, Follower>& leaders) const;
+  void drop_gears(const std::unordered_map<NodeId, GearSettings>& wanted, std::vector<Diagnostic>& notes);
+  void note_distance(NodeId follower, const GearSettings& gear, std::vector<Diagnostic>& notes) const;
+  /// Takes away those of new gears that cannot be met.
+  void leave_out_unmet(std::vector<NodeId> added, std::vector<Diagnostic>& notes);
+  [[nodiscard]] Diagnostic note_on_joint(NodeId follower, std::string problem, std::string remedy) const;
 
   // Masses (weigh.cpp)
   [[nodiscard]] DerivedMass weigh(NodeId id, const Affine& M_BN, double density,

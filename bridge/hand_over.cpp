@@ -60,6 +60,7 @@ class Bridge::Impl::HandOver {
     note_what_is_not_enforced();
     if (has_error(notes_)) return std::move(notes_);
     commit();
+    if (!has_error(notes_)) note_mimics_not_held();
     return std::move(notes_);
   }
 
@@ -134,21 +135,30 @@ class Bridge::Impl::HandOver {
   }
 
   void note_what_is_not_enforced() {
-    int limits = 0, mimics = 0;
+    int limits = 0;
     for (const Planned& planned : plan_) {
       const Link* link = bridge_.scene.link(planned.node);
       if (link == nullptr) continue;
       limits += std::any_of(link->limits.begin(), link->limits.begin() + limit_count(link->kind),
                             [](const LinkLimits& given) { return given != LinkLimits{}; });
-      mimics += link->mimic.has_value();
     }
-    const auto warn = [&](int count, const char* what, const char* remedy) {
-      if (count == 0) return;
-      notes_.push_back(bridge_.note(Severity::Warning, plan_.front().node,
-                                    std::to_string(count) + " joint(s) here " + what, remedy));
-    };
     warn(limits, "have limits, which are not enforced while simulated", "expect them to move beyond");
-    warn(mimics, "mimic another, which is not enforced while simulated", "expect them to move on their own");
+  }
+
+  void warn(int count, const char* what, const char* remedy) {
+    if (count == 0) return;
+    notes_.push_back(bridge_.note(Severity::Warning, plan_.front().node,
+                                  std::to_string(count) + " joint(s) here " + what, remedy));
+  }
+
+  void note_mimics_not_held() {
+    int mimics = 0;
+    for (const Planned& planned : plan_) {
+      const Link* link = bridge_.scene.link(planned.node);
+      mimics += link != nullptr && link->mimic && !bridge_.is_held_by_gear(planned.node);
+    }
+    warn(mimics, "mimic another, which is not held while they are simulated",
+         "hand over what leads them too, of the same instance, or expect them to move on their own");
   }
 
   void commit() {

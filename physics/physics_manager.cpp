@@ -225,7 +225,8 @@ JointNumbers PhysicsManager::joint_rate(JointId id) const {
 void PhysicsManager::set_joint_value(JointId id, const JointNumbers& value) {
   PANTIN_EXPECTS(try_joint_value(id, value),
                  "joint '" + joint(id).name +
-                     "' cannot take this value with its loop closed; choose one within its reach");
+                     "' cannot take this value with its loop closed and its couplings held; choose one "
+                     "within its reach");
 }
 
 bool PhysicsManager::try_joint_value(JointId id, const JointNumbers& value) {

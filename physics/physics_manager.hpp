@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <pantin/physics/constraints/gear.hpp>
 #include <pantin/physics/constraints/joint.hpp>
 #include <pantin/physics/constraints/motor.hpp>
 #include <pantin/physics/deflectors/deflector_manager.hpp>
@@ -78,7 +79,7 @@ class PhysicsManager {
     return add_joint(define(std::move(settings)));
   }
   JointId add_joint(JointDefinition joint);
-  void remove(JointId id);
+  void remove(JointId id);  ///< its couplings go first
   [[nodiscard]] bool contains(JointId id) const noexcept;
   [[nodiscard]] std::vector<JointId> joints() const;
   [[nodiscard]] const JointDefinition& joint(JointId id) const;
@@ -88,7 +89,8 @@ class PhysicsManager {
   /// fewest rows is cut and held by multipliers, also where loops are redundant or pass singular positions.
   [[nodiscard]] bool closes_loop(BodyId a, BodyId b) const;
   /// Joints that move nothing that resists (massless ends), floating bodies without mass, and joints whose
-  /// loops cannot be closed from where the bodies stand; call before stepping.
+  /// loops cannot be closed, or whose coupling cannot be met, from where the bodies stand; call before
+  /// stepping.
   [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints() const;
 
   /// Where B stands against A: pivot angle with its turns [rad], slider [m], ball (w, x, y, z); none for
@@ -96,8 +98,8 @@ class PhysicsManager {
   [[nodiscard]] JointNumbers joint_value(JointId id) const;
   /// pivot [rad/s], slider [m/s], ball: angular velocity of B in A in axes of B's joint frame [rad/s].
   [[nodiscard]] JointNumbers joint_rate(JointId id) const;
-  /// Moves B and all it carries; in a loop the rest follows, by the shortest way that its inertia knows. A
-  /// value or rate that the loop does not allow breaks the contract.
+  /// Moves B and all it carries; in a loop, and where joints are coupled, the rest follows, by the shortest
+  /// way that its inertia knows. A value or rate that these do not allow breaks the contract.
   void set_joint_value(JointId id, const JointNumbers& value);
   /// The same for values that come from outside: where the loop does not allow it, nothing changes.
   [[nodiscard]] bool try_joint_value(JointId id, const JointNumbers& value);
@@ -116,8 +118,23 @@ class PhysicsManager {
   /// or N]; of a ball by axis of B's joint frame. Not what the joint itself holds: that is its reaction.
   [[nodiscard]] JointNumbers joint_effort(JointId id) const;
 
-  /// Greatest distance [m] and angle [rad] by which body poses miss their joints.
+  /// Greatest distance [m] and angle [rad] by which body poses miss their joints, and joints their couplings.
   [[nodiscard]] JointDrift joint_drift() const;
+
+  // Couplings of joints (physics_couplings.cpp)
+  /// Holds while the coupled joints both move something simulated. Joints that stand off it are brought
+  /// together at once, by the shortest way that inertia knows; of a pivot b that nothing else is coupled to,
+  /// whole turns are counted anew instead of made. Where that cannot be, singular_joints and the next step
+  /// say so. Settings must be without problem_with(settings, joint(a), joint(b)).
+  CouplingId add(GearSettings settings);
+  void remove(CouplingId id);
+  [[nodiscard]] bool contains(CouplingId id) const noexcept;
+  [[nodiscard]] const std::vector<CouplingId>& couplings() const noexcept;  ///< in the order of adding
+  [[nodiscard]] const GearSettings& coupling(CouplingId id) const;
+  /// Generalised force by which it acts on joint b at the present state [N m] or [N], evaluated on demand; on
+  /// joint a it acts with -ratio times that. 0 while it does not hold. Where couplings and loops are
+  /// redundant, the least that does it.
+  [[nodiscard]] double coupling_effort(CouplingId id) const;
 
   [[nodiscard]] ForceManager& forces() noexcept;
   [[nodiscard]] const ForceManager& forces() const noexcept;

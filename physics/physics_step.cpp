@@ -102,6 +102,9 @@ double PhysicsManager::Impl::next_break(double t) const {
   for (const TreeLink& link : constraints.layout().links) {
     if (link.driver != nullptr) next = std::min(next, link.driver->next_break(t));
   }
+  for (const Closure& closure : constraints.layout().closures) {
+    if (closure.driver != nullptr) next = std::min(next, closure.driver->next_break(t));
+  }
   return std::min(next, constraints.loads().next_break(t));
 }
 

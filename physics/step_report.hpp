@@ -40,7 +40,8 @@ struct ParticleReport {
 enum class StepStatus {
   Done,
   NotFinite,  ///< a number overflowed or became NaN; the state before the step is kept
-  LoopOpen,   ///< a loop of joints cannot be closed; the state before the step is kept
+  LoopOpen,   ///< a loop of joints cannot be closed, or a coupling not be met; the state before the step is
+              ///< kept
 };
 
 struct StepReport {

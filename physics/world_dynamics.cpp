@@ -168,7 +168,8 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
     if (loads.on_closures()) loads.add_to_cut_joints(layout, tree, kernel, grounds_, at, cut_near_);
     kernel.eliminate(layout, tree, v.last(layout.rates), efforts_);
     kernel.substitute(layout, tree, v_dot.last(layout.rates));
-    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout.rates));
+    if (!tree.has_closures()) continue;
+    evaluate_loops(at, tree, q.last(layout.coordinates), v.last(layout.rates), v_dot.last(layout.rates));
   }
 }
 

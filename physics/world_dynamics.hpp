@@ -64,7 +64,7 @@ class WorldDynamics final : public Dynamics {
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] bool has_constraints() const override { return !constraints_.layout().closures.empty(); }
-  /// A loop that the state settled last leaves open.
+  /// A loop or coupling that the state settled last leaves open.
   [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
@@ -88,7 +88,8 @@ class WorldDynamics final : public Dynamics {
   void evaluate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                 std::span<double> v_dot);
   void gather_wrenches(Instant at);
-  void evaluate_loops(Instant at, const Tree& tree, std::span<double> v_dot);
+  void evaluate_loops(Instant at, const Tree& tree, std::span<const double> q, std::span<const double> v,
+                      std::span<double> v_dot);
   void settle_loops(Instant at, std::span<double> q, std::span<double> v);
   /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
   /// rewritten).

@@ -1,4 +1,4 @@
-// What closed loops of joints add to the dynamics of trees.
+// What closed loops and couplings of joints add to the dynamics of trees.
 #include <algorithm>
 
 #include <pantin/physics/constraints/joint_models.hpp>
@@ -6,11 +6,12 @@
 
 namespace pantin {
 
-void WorldDynamics::evaluate_loops(Instant at, const Tree& tree, std::span<double> v_dot) {
+void WorldDynamics::evaluate_loops(Instant at, const Tree& tree, std::span<const double> q,
+                                   std::span<const double> v, std::span<double> v_dot) {
   const TreeLayout& layout = constraints_.layout();
   Articulated& kernel = constraints_.kernel();
   ClosureSolver& solver = constraints_.loops().solver();
-  solver.measure(layout, tree, kernel, grounds_, at);
+  solver.measure(layout, tree, kernel, grounds_, at, {q, v, v_dot});
   solver.factor(layout, tree, kernel);
   loop_margin = std::min(loop_margin, solver.margin(tree));
   solver.solve(layout, tree, ClosureLevel::Acceleration, kernel);

@@ -67,8 +67,13 @@ class Articulated {
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
   // After eliminate, for rows between two links (closure.hpp), with D = L d L^T:
+  struct JointEffort {  ///< generalised forces at the joint that ties a link, by rate of the link
+    std::int32_t link{-1};
+    std::array<double, 3> by_rate{};
+  };
   struct RowWrench {
     kernel::Vec3<double> force{}, torque{}, point{};  ///< on B; the opposite on A at the same point of W
+    std::array<JointEffort, 2> efforts{};             ///< of a coupling, which has no wrench
   };
   struct Passing {  ///< work space: a wrench on its way to the ground
     kernel::Vec3<double> p_a{}, p_l{};
@@ -77,8 +82,8 @@ class Articulated {
     double squares{0};  ///< y^T d^-1 y: what the row's wrenches do to the row itself
     double bound{0};    ///< what they could, were every lever at its best
   };
-  /// What the unit wrenches of a row leave at the joints of the closure's path on their way to the ground,
-  /// multiplied by L^-1. `passing` has room for the path.
+  /// What the unit wrenches and efforts of a row leave at the joints of the closure's path on their way to
+  /// the ground, multiplied by L^-1. `passing` has room for the path.
   Reduction reduce(const TreeLayout& layout, const Closure& closure, const RowWrench& row,
                    std::span<Passing> passing, std::span<double> y) const;
   /// y^T d^-1 z of one link.
@@ -100,7 +105,7 @@ class Articulated {
                       std::span<const double> efforts);
   template <int N>
   void reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a, Vec& p_l,
-                   double* y, Reduction& sum) const;
+                   const double* effort, double* y, Reduction& sum) const;
   template <int N>
   void substitute_link(const TreeLink& link, LinkWork& work, const Vec& dal, const Vec& da,
                        std::span<double> v_dot);

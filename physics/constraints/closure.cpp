@@ -1,10 +1,8 @@
 #include <pantin/physics/constraints/closure.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <pantin/physics/constraints/joint_models.hpp>
-#include <pantin/physics/constraints/spanning_tree.hpp>
 
 namespace pantin {
 
@@ -14,12 +12,6 @@ using kernel::cross;
 using kernel::dot;
 using kernel::Mat3;
 using Vec = kernel::Vec3<double>;
-
-Vec vec(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-Mat3<double> mat(const Quaternion& q) {
-  const double c[4] = {q.w(), q.x(), q.y(), q.z()};
-  return kernel::rotation_of(c);
-}
 
 double length(const Vec& v) { return std::sqrt(dot(v, v)); }
 
@@ -96,92 +88,7 @@ class Rows {
   ClosureRow *rows_, *next_;
 };
 
-ClosureEnd end_of(const TreeLayout& layout, const BodyStore& bodies, BodyId id, const Pose& X_BJ) {
-  ClosureEnd end;
-  Pose X_LJ = X_BJ;
-  if (id) {
-    const std::size_t i = bodies.at(id);
-    end.link = layout.link_of_body[i];
-    if (end.link < 0) end.ground = static_cast<std::int32_t>(i);
-    else X_LJ = layout.pose_in_link(static_cast<std::uint32_t>(i)) * X_BJ;
-  }
-  end.R_LJ = mat(X_LJ.q);
-  end.p_LJ = vec(X_LJ.p);
-  return end;
-}
-
-/// All links from either end to the ground, children first: links stand behind their parents.
-void append_path(TreeLayout& layout, Closure& closure) {
-  std::vector<std::int32_t> links;
-  std::int32_t x = closure.a.link, y = closure.b.link;
-  while (x >= 0 || y >= 0) {
-    const std::int32_t last = std::max(x, y);
-    links.push_back(last);
-    const std::int32_t parent = layout.links[static_cast<std::size_t>(last)].parent;
-    if (x == last) x = parent;
-    if (y == last) y = parent;
-  }
-  closure.path_begin = static_cast<std::uint32_t>(layout.paths.size());
-  for (const std::int32_t l : links) {
-    const TreeLink& link = layout.links[static_cast<std::size_t>(l)];
-    const auto up = std::find(links.begin(), links.end(), link.parent);
-    layout.paths.push_back({static_cast<std::uint32_t>(l),
-                            up == links.end() ? -1 : static_cast<std::int32_t>(up - links.begin()),
-                            closure.path_rates});
-    with_model(link, [&](auto model) { closure.path_rates += std::uint32_t{decltype(model)::kRates}; });
-  }
-  closure.path_end = static_cast<std::uint32_t>(layout.paths.size());
-}
-
 }  // namespace
-
-Closure make_closure(TreeLayout& layout, const BodyStore& bodies, const JointDefinition& joint,
-                     std::int32_t position) {
-  Closure closure;
-  closure.joint = position;
-  closure.kind = joint.kind;
-  closure.rows = static_cast<std::uint32_t>(row_count(joint.kind));
-  closure.a = end_of(layout, bodies, joint.a, joint.X_AJ);
-  closure.b = end_of(layout, bodies, joint.b, joint.X_BJ);
-  closure.pitch = joint.pitch;
-  for (std::size_t i = 0; i < 3; ++i) closure.armature[i] = joint.axes[i].armature;
-  for (const double armature : closure.armature) closure.rows += armature > 0 ? 1 : 0;
-  closure.driver = joint.driver.get();
-  append_path(layout, closure);
-  return closure;
-}
-
-void add_closures(TreeLayout& layout, const BodyStore& bodies, std::span<const JointDefinition* const> joints,
-                  std::span<const std::uint8_t> is_cut) {
-  std::vector<std::pair<std::size_t, std::int32_t>> list;  // tree, joint
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (is_cut[j] == 0) continue;
-    std::int32_t link = -1;
-    for (const BodyId id : {joints[j]->a, joints[j]->b}) {
-      if (id) link = std::max(link, layout.link_of_body[bodies.at(id)]);
-    }
-    list.emplace_back(layout.tree_of(link), static_cast<std::int32_t>(j));
-  }
-  std::stable_sort(list.begin(), list.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-  auto next = list.begin();
-  for (std::size_t t = 0; t < layout.trees.size(); ++t) {
-    Tree& tree = layout.trees[t];
-    tree.closures_begin = static_cast<std::uint32_t>(layout.closures.size());
-    for (; next != list.end() && next->first == t; ++next) {
-      const JointDefinition& joint = *joints[static_cast<std::size_t>(next->second)];
-      const Closure closure = make_closure(layout, bodies, joint, next->second);
-      layout.closure_of_joint[static_cast<std::size_t>(next->second)] =
-          static_cast<std::int32_t>(layout.closures.size());
-      layout.closures.push_back(closure);
-      const auto animated = [&](const ClosureEnd& end) {
-        return end.ground >= 0 && bodies.kinds[static_cast<std::size_t>(end.ground)] == BodyKind::Animated;
-      };
-      tree.follows_driver =
-          tree.follows_driver || closure.driver != nullptr || animated(closure.a) || animated(closure.b);
-    }
-    tree.closures_end = static_cast<std::uint32_t>(layout.closures.size());
-  }
-}
 
 namespace {
 

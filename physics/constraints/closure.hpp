@@ -13,6 +13,8 @@
 //   (n.d)''  = n.(d'' - al_a x d + w_a x (w_a x d) - 2 w_a x d')                                        n on
 //   A (m.t)''  = (al_a - al_b).(m x t) + (w_a - w_b).((w_a x m) x t + m x (w_b x t))             m on A, t on
 //   B
+//
+// A coupling has one row of its own, without frames (coupling_row.hpp).
 #include <array>
 #include <span>
 
@@ -42,14 +44,17 @@ struct ClosureRow {
   double turning{0};     ///< rate of the number; gap and rate of the row are 0
 };
 
-/// Appends the closures of the cut joints to a layout whose links are complete.
+/// Appends the closures of the cut joints and of the couplings to a layout whose links are complete.
 void add_closures(TreeLayout& layout, const BodyStore& bodies, std::span<const JointDefinition* const> joints,
-                  std::span<const std::uint8_t> is_cut);
+                  std::span<const JointCoupling> couplings, std::span<const std::uint8_t> is_cut);
 
 /// A closure with its path for a joint between bodies of one tree (or the ground). Its path is appended to
 /// `layout.paths`.
 [[nodiscard]] Closure make_closure(TreeLayout& layout, const BodyStore& bodies, const JointDefinition& joint,
                                    std::int32_t position);
+
+/// Appends to `layout.paths` all links from either end of a closure to the ground, children first.
+void append_path(TreeLayout& layout, Closure& closure);
 
 /// Motion of Ja and Jb of a closure, accelerations those last substituted. A driven joint's Ja is where its
 /// driver wants Jb to be.

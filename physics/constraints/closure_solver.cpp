@@ -65,9 +65,14 @@ void ClosureSolver::resize(const TreeLayout& layout) {
 }
 
 void ClosureSolver::measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
-                            std::span<const RigidMotion> grounds, Instant at) {
+                            std::span<const RigidMotion> grounds, Instant at,
+                            const CoordinateMotion& motion) {
   for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
     const Closure& closure = layout.closures[c];
+    if (closure.coupling >= 0) {
+      rows_[places_[c].row] = coupling_row(layout, closure, motion);
+      continue;
+    }
     write_rows(closure, motion_of(closure, kernel, grounds, at),
                std::span{rows_}.subspan(places_[c].row, closure.rows));
   }

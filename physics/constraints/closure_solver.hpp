@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <pantin/physics/constraints/closure.hpp>
+#include <pantin/physics/constraints/coupling_row.hpp>
 
 namespace pantin {
 
@@ -30,9 +31,9 @@ class ClosureSolver {
  public:
   void resize(const TreeLayout& layout);
 
-  /// Rows of the tree as placed, accelerations as last substituted.
+  /// Rows of the tree as placed, accelerations as last substituted; `motion` is what it was placed with.
   void measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
-               std::span<const RigidMotion> grounds, Instant at);
+               std::span<const RigidMotion> grounds, Instant at, const CoordinateMotion& motion);
   /// Multipliers for the tree as measured, with the factor that the kernel holds.
   void factor(const TreeLayout& layout, const Tree& tree, const Articulated& kernel);
   /// Solves for multipliers, and adds what they leave at the joints to the kernel's right-hand side: the next
@@ -56,6 +57,8 @@ class ClosureSolver {
   [[nodiscard]] double gap_squared(const Tree& tree) const;
 
   [[nodiscard]] std::span<const ClosureRow> rows(std::uint32_t closure) const;
+  /// Generalised force by which a coupling acts on its b, by the last multipliers [N m] or [N].
+  [[nodiscard]] double effort(std::uint32_t closure) const { return multiplier_[places_[closure].row]; }
   /// Force at Jb's origin and torque on B of a closure by the last multipliers.
   [[nodiscard]] ClosureWrench wrench(std::uint32_t closure) const;
 

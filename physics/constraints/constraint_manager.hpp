@@ -9,6 +9,7 @@
 
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/articulated.hpp>
+#include <pantin/physics/constraints/couplings.hpp>
 #include <pantin/physics/constraints/joint.hpp>
 #include <pantin/physics/constraints/joint_loads.hpp>
 #include <pantin/physics/constraints/loop_closer.hpp>
@@ -42,6 +43,13 @@ class ConstraintManager {
   /// Rotors turn as the bodies of a tree do, whose velocities were set.
   void measure_rotors(BodyStore& bodies, const Tree& tree) const;
 
+  // Couplings (coupled_joints.cpp)
+  /// Of b the turn is taken, if it counts turns and nothing else is coupled to it, in which the coupling has
+  /// the least to move.
+  CouplingId add(const BodyStore& bodies, GearSettings settings);
+  void remove(CouplingId id) { couplings_.remove(id); }
+  [[nodiscard]] const Couplings& couplings() const noexcept { return couplings_; }
+
   // Layout
   /// Bodies, joints, kinds or masses are about to change: keeps what is known of the coordinates, by joint.
   void stale(const BodyStore& bodies);
@@ -64,7 +72,7 @@ class ConstraintManager {
   bool reclose(BodyStore& bodies, std::size_t tree, std::span<const RigidMotion> grounds, Instant at);
   /// A body that is not simulated has been placed: what hangs on it moves along.
   void ground_has_moved(BodyStore& bodies, std::int32_t ground, Instant at);
-  /// A loop of the present state, which is prepared, that could not be closed, tried again.
+  /// A loop or coupling of the present state, which is prepared, that could not be closed, tried again.
   [[nodiscard]] OpenLoop find_open_loop(BodyStore& bodies);
   /// What is wrong with an open loop, and what to do.
   [[nodiscard]] SettingsProblem problem_with(const OpenLoop& loop) const;
@@ -100,6 +108,10 @@ class ConstraintManager {
                        Instant at);
   void list_storing();
   void lay_out_anew(BodyStore& bodies);
+  [[nodiscard]] std::vector<JointCoupling> placed_couplings() const;
+  [[nodiscard]] bool is_idle(const BodyStore& bodies, std::size_t j) const;
+  [[nodiscard]] SettingsProblem problem_with_coupling(const OpenLoop& loop) const;
+  void add_coupling_drift(const BodyStore& bodies, JointDrift& drift) const;
   void measure_anew(BodyStore& bodies, std::size_t tree, Instant now);
   [[nodiscard]] TreeView view(const Tree& tree, std::span<const RigidMotion> grounds, Instant at) {
     return {layout_, tree, kernel_, grounds, at};
@@ -122,6 +134,7 @@ class ConstraintManager {
   std::vector<std::uint32_t> free_{};
   std::vector<std::vector<JointId>> joints_of_{};  ///< by BodyId::index
 
+  Couplings couplings_{};
   TreeLayout layout_{};
   Articulated kernel_{};
   LoopCloser loops_{};

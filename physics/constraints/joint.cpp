@@ -43,6 +43,25 @@ double angle_about_z(const Quaternion& q, double near) noexcept {
   return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
 }
 
+bool counts_turns(JointKind kind, int number) noexcept {
+  switch (kind) {
+    case JointKind::Pivot:
+    case JointKind::Universal:
+      return true;
+    case JointKind::Cylindrical:
+      return number == 0;
+    case JointKind::Planar:
+      return number == 2;
+    default:
+      return false;
+  }
+}
+
+bool is_length(JointKind kind, int number) noexcept {
+  return kind == JointKind::Slider || (kind == JointKind::Cylindrical && number == 1) ||
+         (kind == JointKind::Planar && number < 2);
+}
+
 namespace {
 
 bool is_rigid(const Pose& X) {

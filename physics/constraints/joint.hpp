@@ -80,6 +80,11 @@ struct JointDefinition {
 /// The angle about z [rad] of the rotation about z nearest to q, in the turn nearest to `near`.
 [[nodiscard]] double angle_about_z(const Quaternion& q, double near) noexcept;
 
+/// Whether whole turns of this number of a joint cannot be seen in poses.
+[[nodiscard]] bool counts_turns(JointKind kind, int number) noexcept;
+/// Whether this number of a joint is a distance [m]; others are angles.
+[[nodiscard]] bool is_length(JointKind kind, int number) noexcept;
+
 /// X_JaJb of a joint that is not driven, at coordinates `value` (as many as it has; quaternions of any length
 /// but 0).
 [[nodiscard]] Pose joint_pose(const JointDefinition& joint, const JointNumbers& value);

@@ -103,7 +103,8 @@ void ConstraintManager::keep_cut_rotors(const BodyStore& bodies, const Tree& tre
                                [](const Closure& c) { return c.armature != std::array<double, 3>{}; });
   if (!any) return;
   kernel_.place(layout_, tree, grounds, at, bodies.state.coordinates, bodies.state.rates);
-  loops_.solver().measure(layout_, tree, kernel_, grounds, at);
+  loops_.solver().measure(layout_, tree, kernel_, grounds, at,
+                           {bodies.state.coordinates, bodies.state.rates, {}});
   loops_.solver().keep_rotor_rates(tree);
 }
 

@@ -34,6 +34,7 @@ JointId ConstraintManager::add(JointDefinition joint) {
 
 void ConstraintManager::remove(JointId id) {
   const std::size_t j = at(id);
+  couplings_.remove_of(id);
   for (const BodyId body : {joints_[j]->a, joints_[j]->b}) {
     if (body) std::erase(joints_of_[body.index], id);
   }

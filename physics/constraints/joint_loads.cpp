@@ -67,6 +67,7 @@ void JointLoads::list(TreeLayout& layout, std::span<const std::unique_ptr<JointD
     if (link.is_loaded) links_.push_back({i, joints[j].get(), motors[j].get()});
   }
   for (std::uint32_t c = 0; c < layout.closures.size(); ++c) {
+    if (layout.closures[c].coupling >= 0) continue;  // its joints tie links
     const auto j = static_cast<std::size_t>(layout.closures[c].joint);
     if (has_springs(*joints[j]) || motors[j] != nullptr || has_damping(*joints[j]))
       closures_.push_back({c, joints[j].get(), motors[j].get()});

@@ -82,6 +82,8 @@ Wrench PhysicsManager::reaction(JointId id) const {
     sum.torque += t + (k.p_WBcm - p_WJ).cross(f);
   }
   for (std::uint32_t c = 0; c < constraints.layout().closures.size(); ++c) {
+    // What a coupling does passes through its joints.
+    if (constraints.layout().closures[c].coupling >= 0) continue;
     const JointDefinition& other =
         constraints.joint(static_cast<std::size_t>(constraints.layout().closures[c].joint));
     const double sign = (side.has(other.a) ? 1 : 0) - (side.has(other.b) ? 1 : 0);

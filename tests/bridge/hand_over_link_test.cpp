@@ -17,7 +17,8 @@ using test::Stage;
 using test::turned;
 
 TEST(HandOver, SaysWhatOfLinksIsNotEnforced) {
-  // Limits and mimic are geometry only so far: one warning each, with how many.
+  // Limits are geometry only so far, and so is a mimic outside of an instance: one warning each, with how
+  // many.
   Stage s;
   const NodeId top = box(s, s.scene.root(), "top", Affine::Identity());
   for (int k = 0; k < 3; ++k) {
@@ -29,7 +30,7 @@ TEST(HandOver, SaysWhatOfLinksIsNotEnforced) {
   }
   const std::vector<Diagnostic> notes = s.bridge.hand_over(top, Scope::Subtree);
   EXPECT_TRUE(says(notes, "top", "3 joint(s) here have limits, which are not enforced while simulated"));
-  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not enforced while simulated"));
+  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not held while they are"));
 }
 
 TEST(HandOver, KeepsTheValueOfALinkWithItsTurns) {
