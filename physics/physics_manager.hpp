@@ -17,6 +17,7 @@
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/state.hpp>
 #include <pantin/physics/step_report.hpp>
+#include <pantin/physics/stops/joint_event.hpp>
 
 namespace pantin {
 
@@ -103,6 +104,14 @@ class PhysicsManager {
   /// Wrench that A exerts on B through the joint, at J, in W, at the present state: evaluated on demand.
   /// Where loops are redundant, the least that does it.
   [[nodiscard]] Wrench reaction(JointId id) const;
+  /// How one of a joint's numbers moves, by what the last step decided: Free before the first step.
+  [[nodiscard]] AxisMode axis_mode(JointId id, int axis = 0) const;
+  /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or N],
+  /// positive where it pushes the number up: evaluated on demand.
+  [[nodiscard]] double axis_effort(JointId id, int axis = 0) const;
+  /// Numbers of joints whose stops and friction do not act: in a loop in which all joints have them, those of
+  /// the joint that is cut; the distances of a planar joint whose B is nearer to the ground than its A.
+  [[nodiscard]] std::vector<std::pair<JointId, int>> unguarded_axes() const;
   /// Greatest distance [m] and angle [rad] by which body poses miss their joints.
   [[nodiscard]] JointDrift joint_drift() const;
 
@@ -122,6 +131,8 @@ class PhysicsManager {
   [[nodiscard]] StepReport step(double h);
   /// Bodies whose pose the last step changed, in the order of `bodies()`.
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
+  /// What happened to joints in the last step, in the order of time.
+  [[nodiscard]] std::span<const JointEvent> joint_events() const noexcept;
   [[nodiscard]] Energy energy() const;
 
   // Dense output

@@ -32,6 +32,8 @@ class WorldDynamics final : public Dynamics {
 
   /// Fits the work space to the bodies and trees of now; the constraint manager must be prepared.
   void begin();
+  /// To be called when what the kernel holds (Articulated::hold) has changed since begin.
+  void holds_have_changed() noexcept { lane_.fits = false; }
   /// Coordinates and velocities of the state reached.
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();

@@ -2,6 +2,7 @@
 // J. 36, 1389 (1957)), so that the order among equals is free to keep trees shallow.
 #include <pantin/physics/constraints/spanning_tree.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <queue>
 
@@ -10,6 +11,11 @@
 namespace pantin {
 
 namespace {
+
+bool is_guarded(const JointDefinition& joint) {
+  return std::any_of(joint.axes.begin(), joint.axes.end(),
+                     [](const JointAxis& axis) { return axis.has_stops() || axis.friction > 0; });
+}
 
 /// Bodies as nodes, and one more node for all that is not simulated.
 class Spanner {
@@ -41,11 +47,13 @@ class Spanner {
 
  private:
   struct Candidate {
+    bool guarded{false};  ///< stops and dry friction act on what is not cut
     int rows{0};
     std::int32_t depth{0};
     std::size_t joint{0}, to{0};
     /// Whether it comes after the other.
     bool operator<(const Candidate& o) const {
+      if (guarded != o.guarded) return !guarded;
       if (rows != o.rows) return rows < o.rows;
       if (depth != o.depth) return depth > o.depth;
       return joint > o.joint;
@@ -129,7 +137,9 @@ class Spanner {
   void offer(std::size_t from) {
     for (std::size_t k = first_[from]; k < first_[from + 1]; ++k) {
       const std::size_t j = neighbours_[k], to = ends_[j].first == from ? ends_[j].second : ends_[j].first;
-      if (reached_[to] == 0) open_.push({row_count(joints_[j]->kind), depth_[from], j, to});
+      if (reached_[to] == 0) {
+        open_.push({is_guarded(*joints_[j]), row_count(joints_[j]->kind), depth_[from], j, to});
+      }
     }
   }
 

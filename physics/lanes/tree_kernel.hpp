@@ -159,6 +159,7 @@ class TreeKernel {
       RateLanes<T>* kept = rates(task, c);
       for (int j = 0; j < Model::kRates; ++j) {
         kept[j].S_a = R_J * S_a[j], kept[j].S_l = R_J * S_l[j];
+        if (c.holds && c.locked[j]) kept[j].S_a = kept[j].S_l = {};
         w_rel += rate[j] * kept[j].S_a;
         v_rel += rate[j] * kept[j].S_l;
       }
@@ -207,10 +208,20 @@ class TreeKernel {
     const Vec x = I.A * n, y = transposed_times(I.B, n);
     T u = -dot(n, p_a);
     if (c.damping[0] != 0) u -= T(c.damping[0]) * number(task, task.v, c.v);
-    const T inverse = T(1) / dot(n, x);
     RateLanes<T>& kept = *rates(task, c);
+    if (c.holds) {
+      if (c.locked[0]) return lock(kept);
+      u += T(c.effort[0]);
+    }
+    const T inverse = T(1) / dot(n, x);
     kept.U_a = x, kept.U_l = y, kept.u = u, kept.D[0] = inverse;
     take_out(I, p_a, p_l, x, y, inverse * x, inverse * y, u);
+  }
+
+  /// What a rate keeps that is zero, and whose derivative is.
+  static void lock(RateLanes<T>& kept) {
+    kept.U_a = kept.U_l = {};
+    kept.u = T(0), kept.D[0] = T(1);
   }
 
   template <int N>
@@ -223,12 +234,14 @@ class TreeKernel {
       k[j].u = -dot(k[j].S_a, p_a) - dot(k[j].S_l, p_l);
       if (c.damping[j] != 0)
         k[j].u -= T(c.damping[j]) * number(task, task.v, c.v + static_cast<std::uint32_t>(j));
+      if (c.holds) k[j].u = c.locked[j] ? T(0) : k[j].u + T(c.effort[j]);
     }
     // D = S^T U = L d L^T: row j keeps L(j, 0..j-1) and 1 / d(j).
     for (int j = 0; j < N; ++j) {
       T e[N];  // L(j, i) d(i)
       for (int i = 0; i <= j; ++i) {
         e[i] = dot(k[j].S_a, k[i].U_a) + dot(k[j].S_l, k[i].U_l);
+        if (c.holds && i == j && c.locked[j]) e[i] = T(1);
         for (int m = 0; m < i; ++m) e[i] -= e[m] * (i < j ? k[i].D[m] : k[j].D[m]);
         k[j].D[i] = i < j ? e[i] * k[i].D[i] : T(1) / e[i];
       }
