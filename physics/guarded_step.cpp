@@ -168,15 +168,12 @@ bool PhysicsManager::Impl::short_steps(double h) {
     state.time = begin + h * i / count;
     const double part = begin + h * (i + 1) / count - state.time;
     const Moving now = begin_update();
-    trial_q.assign(now.q.begin(), now.q.end());
-    trial_v.assign(now.v.begin(), now.v.end());
-    q_dot.resize(now.q.size());
-    v_dot.resize(now.v.size());
-    guard.step_over({*now.system, {state.time, Side::After}, now.q, now.v}, part, q_dot, v_dot);
-    const MotionRecord::Room room = motion.add(state.time, part, 1, trial_q, trial_v);
-    for (std::size_t j = 0; j < now.q.size(); ++j) room.at(1)[j] = now.q[j] - trial_q[j];
-    for (std::size_t j = 0; j < now.v.size(); ++j) room.at(1)[now.q.size() + j] = now.v[j] - trial_v[j];
-    state.memory = {};
+    const GuardedMotion here{*now.system, {state.time, Side::After}, now.q, now.v};
+    const bool struck = guard.strike(here);
+    if (guard.decide_over(here, part) || struck) put_numbers(now);
+    guard.hold();
+    if (const StepControl* control = integrate_now(now, part)) note_control(*control);
+    guard.let_go();
     if (!end_update(now, part)) return false;
   }
   return true;

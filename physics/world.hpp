@@ -33,7 +33,7 @@ struct PhysicsManager::Impl {
   std::vector<double> start{};       ///< work space: q and v at the begin of an update
   int crowded{0};                    ///< parts of the last step in which events crowded
   StepMemory memory_before{};        ///< work space of a guarded piece, as are the next
-  std::vector<double> trial_q{}, trial_v{}, q_dot{}, v_dot{};
+  std::vector<double> trial_q{}, trial_v{};
   State before{};                    ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).

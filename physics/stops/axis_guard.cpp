@@ -69,6 +69,14 @@ void AxisGuard::note(std::size_t i, JointEventKind kind, const GuardedMotion& mo
                     .rate = axis.sense * v_of(i, motion)});
 }
 
+void AxisGuard::note_change(std::size_t i, const GuardedMotion& motion) {
+  const AxisMode then = before_[i];
+  const bool slid = then == AxisMode::SlidingForward || then == AxisMode::SlidingBackward;
+  if (slid && mode(i) == AxisMode::Stuck) note(i, JointEventKind::Stuck, motion);
+  if (!is_locked(then) || is_locked(mode(i))) return;
+  note(i, then == AxisMode::Stuck ? JointEventKind::Slipped : JointEventKind::StopLeft, motion);
+}
+
 std::pair<std::size_t, std::size_t> AxisGuard::range_of(const Tree& tree) const {
   const auto before = [](const GuardedAxis& axis, std::uint32_t link) { return axis.link < link; };
   const auto begin = std::lower_bound(axes_.begin(), axes_.end(), tree.links_begin, before);
@@ -91,6 +99,16 @@ void AxisGuard::fill_response(const Tree& tree, const GuardedMotion& motion) {
       problem_.W(m, k) = problem_.W(k, m) = 0.5 * (problem_.W(m, k) + problem_.W(k, m));
     }
   }
+}
+
+/// Adds what the answer to the problem, as impulses, does to the rates of a tree.
+void AxisGuard::add_response(const Tree& tree, const GuardedMotion& motion) {
+  for (std::size_t k = 0; k < picked_.size(); ++k) {
+    response_.push(axes_[picked_[k]].link, axes_[picked_[k]].v, problem_.x[k]);
+  }
+  response_.respond(change_);
+  const std::size_t first = dynamics_.velocities() - constraints_.layout().rates;
+  for (std::uint32_t j = tree.v_begin; j < tree.v_end; ++j) motion.v[first + j] += change_[j];
 }
 
 bool AxisGuard::strike(const GuardedMotion& motion) {
@@ -134,13 +152,7 @@ void AxisGuard::strike_tree(const Tree& tree, const GuardedMotion& motion) {
     if (hits && !is_locked(mode(i))) note(i, JointEventKind::StopHit, motion);
   }
   problem_.solve();
-  for (std::size_t k = 0; k < picked_.size(); ++k) {
-    response_.push(axes_[picked_[k]].link, axes_[picked_[k]].v, problem_.x[k]);
-  }
-  response_.respond(change_);
-  const std::span<double> rates = motion.v.subspan(
-      dynamics_.velocities() - constraints_.layout().rates, constraints_.layout().rates);
-  for (std::uint32_t j = tree.v_begin; j < tree.v_end; ++j) rates[j] += change_[j];
+  add_response(tree, motion);
   for (std::size_t k = 0; k < picked_.size(); ++k) {
     if (problem_.at[k] != BoxedProblem::At::Between) continue;
     const std::size_t i = picked_[k];
@@ -204,22 +216,18 @@ void AxisGuard::decide_tree(const Tree& tree, const GuardedMotion& motion) {
   problem_.solve();
   for (std::size_t k = 0; k < picked_.size(); ++k) {
     const std::size_t i = picked_[k];
-    const AxisMode before = before_[i];
     effort_of_axis_[i] = problem_.x[k];
     if (problem_.at[k] == BoxedProblem::At::Between) {
       mode(i) = at_lower(i, motion)   ? AxisMode::HeldLower
                 : at_upper(i, motion) ? AxisMode::HeldUpper
                                       : AxisMode::Stuck;
-      const bool slid = before == AxisMode::SlidingForward || before == AxisMode::SlidingBackward;
-      if (slid && mode(i) == AxisMode::Stuck) note(i, JointEventKind::Stuck, motion);
-      continue;
+    } else {
+      const bool forward = problem_.at[k] == BoxedProblem::At::Lower;
+      mode(i) = !axes_[i].has_friction() ? AxisMode::Free
+                : forward                ? AxisMode::SlidingForward
+                                         : AxisMode::SlidingBackward;
     }
-    const bool forward = problem_.at[k] == BoxedProblem::At::Lower;
-    mode(i) = !axes_[i].has_friction() ? AxisMode::Free
-              : forward                ? AxisMode::SlidingForward
-                                       : AxisMode::SlidingBackward;
-    if (!is_locked(before)) continue;
-    note(i, before == AxisMode::Stuck ? JointEventKind::Slipped : JointEventKind::StopLeft, motion);
+    note_change(i, motion);
   }
 }
 

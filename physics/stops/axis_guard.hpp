@@ -89,9 +89,9 @@ class AxisGuard {
   /// Lets it happen in q, v and modes.
   void pass(const AxisCrossing& crossing, const GuardedMotion& motion);
 
-  /// One short step of first order over h [s] from accelerations at its begin: rates, then coordinates by
-  /// these rates, with stops and friction at its end. `q_dot` and `v_dot` are room.
-  void step_over(const GuardedMotion& motion, double h, std::span<double> q_dot, std::span<double> v_dot);
+  /// In the place of `decide`: what holds and what slides over a short step of h [s] whose events are not
+  /// looked for. Whether v has changed.
+  bool decide_over(const GuardedMotion& motion, double h);
 
   /// What stops and friction exert at the present state, by axis.
   [[nodiscard]] std::span<const double> efforts(const GuardedMotion& motion);
@@ -111,14 +111,16 @@ class AxisGuard {
   /// Efforts by which an axis at rest may be held.
   [[nodiscard]] Range bearing(std::size_t i, const GuardedMotion& motion) const;
   void note(std::size_t i, JointEventKind kind, const GuardedMotion& motion);
+  void note_change(std::size_t i, const GuardedMotion& motion);  ///< of mode, against before_
   /// The axes of a tree, as positions from .first to .second.
   [[nodiscard]] std::pair<std::size_t, std::size_t> range_of(const Tree& tree) const;
   void accelerate(const GuardedMotion& motion);
   void fill_response(const Tree& tree, const GuardedMotion& motion);
   void strike_tree(const Tree& tree, const GuardedMotion& motion);
   void decide_tree(const Tree& tree, const GuardedMotion& motion);
-  void add_response(const GuardedMotion& motion);
-  void step_tree(const Tree& tree, const GuardedMotion& motion, double h);
+  void add_response(const Tree& tree, const GuardedMotion& motion);
+  void foresee(const Tree& tree, const GuardedMotion& motion, double h);
+  bool bring_to_rest(const Tree& tree, const GuardedMotion& motion);
   void hold(bool locks);
 
   BodyStore& bodies_;
@@ -135,7 +137,7 @@ class AxisGuard {
   std::vector<RigidMotion> grounds_{};
   std::vector<double> q_dot_{}, v_dot_{}, change_{}, efforts_{}, effort_of_axis_{};
   std::vector<std::uint8_t> locked_{}, open_{};  ///< by rate; by axis: to be decided
-  std::vector<AxisMode> before_{};
+  std::vector<AxisMode> before_{};  ///< modes that are being decided anew
 };
 
 }  // namespace pantin

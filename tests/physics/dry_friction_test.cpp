@@ -145,10 +145,11 @@ TEST(DryFriction, BreaksLooseWhereTheLoadPassesIt) {
 }
 
 TEST(DryFriction, EndsHoweverManyJointsChatter) {
-  // 60 rods on random pivots with random friction, which stick and slip into each other: every step ends, the
-  // numbers stay finite, and with nothing that drives them, energy only falls (to the error of short steps).
+  // 60 rods on random pivots with random friction and stops, in steps so long that some are crowded: every step
+  // ends, and as stops without restitution and friction only take energy, none comes from anywhere (but for
+  // 1e-2, the error of short steps).
   PhysicsManager physics;
-  physics.set_integrator(make_integrator("rk4"));
+  physics.set_integrator(make_integrator("gauss8"));
   physics.forces().add(Gravity{});
   std::mt19937_64 random{7};
   std::uniform_real_distribution<double> number{-1, 1};
@@ -163,13 +164,15 @@ TEST(DryFriction, EndsHoweverManyJointsChatter) {
     above = rod;
   }
   double energy = physics.energy().total();
-  for (int i = 0; i < 120; ++i) {
-    const StepReport report = physics.step(1.0 / 60);
+  int crowded = 0;
+  for (int i = 0; i < 40; ++i) {
+    const StepReport report = physics.step(0.1);
     ASSERT_TRUE(report.ok()) << report.message;
-    std::printf("%d events %d crowded %d E %g ev %d\n", i, report.joint_events, report.crowded, report.energy.total(), report.evaluations);
     EXPECT_LT(report.energy.total(), energy + 1e-2 * std::abs(energy));
     energy = report.energy.total();
+    crowded += report.crowded;
   }
+  EXPECT_GT(crowded, 0);
 }
 
 }  // namespace
