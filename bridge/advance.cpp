@@ -76,6 +76,7 @@ AdvanceReport Bridge::Impl::run_due() {
       break;
     }
     clock.reached(*end);
+    if (h > 0 && !report.last.broken.empty()) forget_broken(report.last.broken, report.notes);
     count(report, h);
     if (toggle_is_due()) {
       write_scene(&report.notes);

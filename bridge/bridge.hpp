@@ -50,6 +50,8 @@ struct NodeBody {
   std::vector<Shape> shapes{};           ///< solids for deriving the mass (and, later, collision)
   std::vector<ModelMesh> meshes{};       ///< used where there are no shapes
   double joint_damping{0};               ///< of the node's link [N m s/rad] or [N s/m], >= 0
+  double joint_friction{0};              ///< dry friction of each of its numbers [N m] or [N], >= 0
+  JointStrength joint_strength{};        ///< what the joint bears before it breaks
 };
 
 struct HandOverSettings {
@@ -135,8 +137,10 @@ class Bridge {
   /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link
   /// is joined to the nearest bound node above; if there is none, to the world, or to its parent if that is
   /// played. Subtree takes the node and all below it that declare mass or have a link that moves; what
-  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet;
-  /// animated links that mimic a simulated one follow it, their bodies one advance later.
+  /// follows them rigidly lends them its mass. Limits of links are stops without bounce; where a link starts
+  /// beyond one, the stop is where it stands until it has moved back. Mimic of links is not enforced yet;
+  /// animated links that mimic a simulated one follow it, their bodies one advance later. A joint that breaks
+  /// (NodeBody::joint_strength) is gone until its node is taken back and handed over again.
   std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
                                     const HandOverSettings& settings = {});
   /// Simulated nodes are animated again. One that a clip moves, or moves with, is led back to it from where
@@ -170,6 +174,9 @@ class Bridge {
   /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
   /// set. A value that the joint's loop cannot take is an error that names the joint and changes nothing.
   std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
+
+  /// Whether joints made from now on leave out limits and dry friction of links. Off unless set.
+  void leave_joints_free(bool free);
 
   // Look-up
   [[nodiscard]] std::optional<Drive> drive_of(NodeId id) const;  ///< nothing for a node without a body

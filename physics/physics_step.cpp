@@ -69,6 +69,11 @@ StepReport PhysicsManager::step(double h) {
   }
   world.apply_impulses();
   world.list_moved();
+  world.find_overloaded(*this, report.broken);
+  for (const JointId joint : report.broken) {
+    world.guard.events.push_back({.time = state.time, .joint = joint, .kind = JointEventKind::Broken});
+    remove(joint);
+  }
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
   report.loop_margin = world.dynamics.loop_margin;

@@ -11,6 +11,7 @@
 #include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/physics/stops/axis_guard.hpp>
+#include <pantin/physics/stops/joint_loads.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
@@ -24,6 +25,7 @@ struct PhysicsManager::Impl {
   DeflectorManager deflectors{bodies};
   ParticleManager particles{bodies, forces, deflectors, dynamics};
   AxisGuard guard{bodies, constraints, dynamics};
+  JointLoads loads{bodies, constraints, dynamics};
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
@@ -63,6 +65,8 @@ struct PhysicsManager::Impl {
   void put_numbers(const Moving& now);
   [[nodiscard]] bool short_steps(double h);
   void strike_now();
+  /// Appends the joints that bear more than their strength now (stops/joint_loads.cpp).
+  void find_overloaded(const PhysicsManager& physics, std::vector<JointId>& out);
   [[nodiscard]] StepReport failure() const;
   [[nodiscard]] StepReport failure(const OpenLoop& open) const;
   [[nodiscard]] Energy energy() const;

@@ -115,7 +115,7 @@ class WorldDynamics final : public Dynamics {
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };
-  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error and weights
+  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error, weights, accelerations_now
   std::vector<LinkMotion> base_{};
   bool has_animated_{false};
 

@@ -14,7 +14,7 @@ std::string placement_of(const PlacedModel& placed, UpAxis up) {
 
 std::string drift_of(const RunSummary& summary) {
   if (summary.energy_drift) return short_number(*summary.energy_drift) + " of the energy exchanged";
-  return "not conserved: damping or animated nodes do work";
+  return "not conserved: damping, friction, stops or animated nodes do work";
 }
 
 }  // namespace
