@@ -14,8 +14,8 @@ namespace pantin {
 
 namespace {
 
-/// More smooth pieces than this in one part of a step are a crowd.
-constexpr int kMostPieces = 48;
+/// More smooth pieces in one part of a step are a crowd: this many, and one for each of these times [s].
+constexpr double kMostPieces = 48, kPieceTime = 1e-3;
 /// The short steps in a crowd: not longer than this [s], but no more than so many.
 constexpr double kShortStep = 1e-3;
 constexpr int kMostShortSteps = 64;
@@ -54,7 +54,7 @@ bool PhysicsManager::Impl::guarded_update(double h) {
   bool good = true;
   double rest = h;
   for (int pieces = 0; good && rest > 0; ++pieces) {
-    const bool crowd = pieces == kMostPieces;
+    const bool crowd = pieces > kMostPieces + h / kPieceTime;
     const double taken = crowd ? rest : guarded_piece(rest);
     if (crowd) good = short_steps(rest);
     good = good && taken >= 0;
