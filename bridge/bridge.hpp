@@ -94,6 +94,8 @@ struct AdvanceReport {
   int inner_steps{0};           ///< that an integrator which chooses its steps took inside
   double shortest_step{0};      ///< of these [s]
   std::int64_t evaluations{0};  ///< of the derivative, in all of them
+  int joint_events{0};          ///< at stops and in dry friction, in all of them
+  int crowded{0};               ///< StepReport::crowded, of all of them
   double time{0};               ///< physics time reached [s]
   double dropped{0};            ///< elapsed time thrown away by the cap on updates [s]
   StepReport last{};  ///< of the last step; not ok = the advance stopped there, scene untouched by it

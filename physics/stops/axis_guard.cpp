@@ -171,31 +171,24 @@ void AxisGuard::accelerate(const GuardedMotion& motion) {
 }
 
 void AxisGuard::decide(const GuardedMotion& motion) {
+  std::copy(bodies_.state.axis_modes.begin(), bodies_.state.axis_modes.end(), before_.begin());
   bool any = false;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double v = v_of(i, motion);
     const bool rests = axes_[i].has_friction() || at_lower(i, motion) || at_upper(i, motion);
+    open_[i] = v == 0 && rests && released_ != i;
+    any = any || open_[i] != 0;
     if (released_ == i) continue;
-    if (v == 0 && rests) {
-      any = true;
-    } else if (v == 0 || !axes_[i].has_friction()) {
-      mode(i) = AxisMode::Free;
-    } else {
-      mode(i) = v > 0 ? AxisMode::SlidingForward : AxisMode::SlidingBackward;
-    }
-  }
-  if (any) {
-    constraints_.ground_motions(bodies_, motion.at, grounds_);
-    std::copy(bodies_.state.axis_modes.begin(), bodies_.state.axis_modes.end(), before_.begin());
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      const bool rests = axes_[i].has_friction() || at_lower(i, motion) || at_upper(i, motion);
-      open_[i] = v_of(i, motion) == 0 && rests && released_ != i;
-      if (open_[i]) mode(i) = AxisMode::Free;
-    }
-    accelerate(motion);
-    for (const Tree& tree : constraints_.layout().trees) decide_tree(tree, motion);
+    mode(i) = v == 0 || !axes_[i].has_friction() ? AxisMode::Free
+              : v > 0                            ? AxisMode::SlidingForward
+                                                 : AxisMode::SlidingBackward;
+    if (open_[i] == 0) note_change(i, motion);
   }
   released_.reset();
+  if (!any) return;
+  constraints_.ground_motions(bodies_, motion.at, grounds_);
+  accelerate(motion);
+  for (const Tree& tree : constraints_.layout().trees) decide_tree(tree, motion);
 }
 
 void AxisGuard::decide_tree(const Tree& tree, const GuardedMotion& motion) {

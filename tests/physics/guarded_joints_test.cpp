@@ -222,6 +222,30 @@ TEST(GuardedJoints, LockWhatHasNoRoom) {
   EXPECT_GT(std::abs(physics.axis_effort(locked)), 1e-3);
 }
 
+TEST(GuardedJoints, HoldWhatHasNoMassByFriction) {
+  // A massless pointer at the end of a pendulum, on a pivot with dry friction, weighs nothing: it stays where it
+  // is on the rod, which swings as without it. (Without friction it is a joint that moves nothing.)
+  PhysicsManager physics, bare;
+  const auto build = [](PhysicsManager& world, bool pointer) {
+    world.forces().add(Gravity{});
+    const BodyId rod = world.add(RigidBodySettings{.name = "rod", .mass = test::lopsided_mass()});
+    world.add(joint_here<PivotSettings>(world, BodyId{}, rod, {{0, 0, 0}, facing({0, 1, 0})}));
+    if (!pointer) return rod;
+    MassProperties nothing;
+    nothing.mass = 0;
+    nothing.I_BBcm_B.setZero();
+    const BodyId tip = world.add(RigidBodySettings{.name = "tip", .X_WB = {{0.3, 0, 0}, Quaternion::Identity()}, .mass = nothing});
+    PivotSettings pivot = joint_here<PivotSettings>(world, rod, tip, {{0.3, 0, 0}, facing({1, 1, 0})});
+    pivot.axis.friction = 0.1;
+    world.add(std::move(pivot));
+    return rod;
+  };
+  const BodyId rod = build(physics, true), alone = build(bare, false);
+  ASSERT_TRUE(run(physics, 0.01, 100));
+  ASSERT_TRUE(run(bare, 0.01, 100));
+  EXPECT_LT((physics.body(rod).p_WBcm() - bare.body(alone).p_WBcm()).norm(), 1e-12);
+}
+
 TEST(GuardedJoints, SayWhichWayNumbersAreGuarded) {
   // In a loop in which every joint has stops, one is cut and says so.
   test::FourBar bar;
