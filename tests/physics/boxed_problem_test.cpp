@@ -45,9 +45,10 @@ TEST(BoxedProblem, MeetsItsConditions) {
       const double slack = 1e-11 * scale, slack_x = slack / problem.W(i, i);
       EXPECT_GE(problem.x[i], problem.lower[i] - slack_x);
       EXPECT_LE(problem.x[i], problem.upper[i] + slack_x);
-      if (problem.at[i] == BoxedProblem::At::Between) EXPECT_NEAR(w, 0, slack);
-      if (problem.at[i] == BoxedProblem::At::Lower) EXPECT_GE(w, -slack);
-      if (problem.at[i] == BoxedProblem::At::Upper) EXPECT_LE(w, slack);
+      const BoxedProblem::At at = problem.at[i];
+      EXPECT_TRUE(at != BoxedProblem::At::Between || std::abs(w) <= slack) << w;
+      EXPECT_TRUE(at != BoxedProblem::At::Lower || w >= -slack) << w;
+      EXPECT_TRUE(at != BoxedProblem::At::Upper || w <= slack) << w;
     }
   }
 }
