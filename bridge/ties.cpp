@@ -59,8 +59,8 @@ void Bridge::Impl::untie(Binding& binding) {
 // Joints that physics has taken out: their nodes go on without, until they are handed over anew.
 void Bridge::Impl::forget_broken(std::span<const JointId> broken, std::vector<Diagnostic>& notes) {
   for (const JointId joint : broken) {
-    const auto found =
-        std::find_if(bindings.begin(), bindings.end(), [&](const auto& b) { return b.second->joint == joint; });
+    const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                    [&](const auto& b) { return b.second->joint == joint; });
     if (found == bindings.end()) continue;
     Binding& binding = *found->second;
     binding.joint = {};

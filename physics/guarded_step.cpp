@@ -115,8 +115,7 @@ double PhysicsManager::Impl::guarded_piece(double h) {
 
 /// The first event on the record from part `first` on.
 std::optional<AxisCrossing> PhysicsManager::Impl::next_crossing(const Moving& now, std::size_t first) {
-  const std::optional<AxisCrossing> crossing =
-      guard.first_crossing(motion, first, now.system->coordinates());
+  const std::optional<AxisCrossing> crossing = guard.first_crossing(motion, first, now.system->coordinates());
   if (!guard.any_bounded_hold()) return crossing;
   trial_q.resize(now.q.size());
   trial_v.resize(now.v.size());
@@ -142,15 +141,16 @@ std::optional<AxisCrossing> PhysicsManager::Impl::next_crossing(const Moving& no
 void PhysicsManager::Impl::put_numbers(const Moving& now) {
   State& state = bodies.state;
   const TreeLayout& layout = constraints.layout();
-  const std::span<const double> q = std::span<const double>{now.q}.subspan(
-      dynamics.coordinates() - layout.coordinates, layout.coordinates);
+  const std::span<const double> q =
+      std::span<const double>{now.q}.subspan(dynamics.coordinates() - layout.coordinates, layout.coordinates);
   const std::span<const double> v =
       std::span<const double>{now.v}.subspan(dynamics.velocities() - layout.rates, layout.rates);
   const Instant at{state.time, Side::After};
   constraints.ground_motions(bodies, at, grounds);
   for (const Tree& tree : layout.trees) {
     const bool same =
-        std::equal(q.begin() + tree.q_begin, q.begin() + tree.q_end, state.coordinates.begin() + tree.q_begin) &&
+        std::equal(q.begin() + tree.q_begin, q.begin() + tree.q_end,
+                   state.coordinates.begin() + tree.q_begin) &&
         std::equal(v.begin() + tree.v_begin, v.begin() + tree.v_end, state.rates.begin() + tree.v_begin);
     if (same) continue;
     std::copy(q.begin() + tree.q_begin, q.begin() + tree.q_end, state.coordinates.begin() + tree.q_begin);

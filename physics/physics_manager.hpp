@@ -106,8 +106,8 @@ class PhysicsManager {
   [[nodiscard]] Wrench reaction(JointId id) const;
   /// How one of a joint's numbers moves, by what the last step decided: Free before the first step.
   [[nodiscard]] AxisMode axis_mode(JointId id, int axis = 0) const;
-  /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or N],
-  /// positive where it pushes the number up: evaluated on demand.
+  /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or
+  /// N], positive where it pushes the number up: evaluated on demand.
   [[nodiscard]] double axis_effort(JointId id, int axis = 0) const;
   /// Numbers of joints whose stops and friction do not act: in a loop in which all joints have them, those of
   /// the joint that is cut; the distances of a planar joint whose B is nearer to the ground than its A.

@@ -36,7 +36,7 @@ struct PhysicsManager::Impl {
   int crowded{0};                    ///< parts of the last step in which events crowded
   StepMemory memory_before{};        ///< work space of a guarded piece, as are the next
   std::vector<double> trial_q{}, trial_v{};
-  State before{};                    ///< to go back to, where a part of a step may fail after others are done
+  State before{};  ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).
   void remember(bool with_particles);

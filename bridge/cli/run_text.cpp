@@ -50,11 +50,11 @@ void print_summary(std::ostream& out, const RunSummary& summary) {
   table.add({"joint drift",
              short_number(summary.joint_drift_m) + " m, " + short_number(summary.joint_drift_rad) + " rad"});
   if (summary.joint_events > 0) {
-    table.add({"joint events", std::to_string(summary.joint_events) + " at stops and in dry friction" +
-                                   (summary.crowded > 0 ? ", crowded in " +
-                                                              counted(static_cast<std::size_t>(summary.crowded),
-                                                                      "update", "updates")
-                                                        : "")});
+    table.add({"joint events",
+               std::to_string(summary.joint_events) + " at stops and in dry friction" +
+                   (summary.crowded > 0 ? ", crowded in " + counted(static_cast<std::size_t>(summary.crowded),
+                                                                    "update", "updates")
+                                        : "")});
   }
   table.add({"wall time", short_number(summary.wall_seconds) + " s"});
   out << "summary\n";

@@ -8,7 +8,8 @@
 namespace pantin {
 
 /// Whether nothing but potential forces and ideal joints does work on the simulated bodies: no damping or
-/// dry friction, and no joint to an animated body or driven by one. Stops are ideal until they are hit. For a manager whose only force law is gravity.
+/// dry friction, and no joint to an animated body or driven by one. Stops are ideal until they are hit. For a
+/// manager whose only force law is gravity.
 [[nodiscard]] bool conserves_energy(const PhysicsManager& physics);
 
 /// drift = sum over the stretches of max |E(t) - E(begin)|, relative to the largest exchange seen anywhere:

@@ -37,9 +37,13 @@ struct GuardedMotion {
 
 /// The next thing to happen to a number of a joint.
 struct AxisCrossing {
-  enum class Kind : std::uint8_t { Stop, Rest, Effort };  ///< reaches a stop; slides no more; passes what holds it
-  double time{0};                          ///< [s]
-  std::size_t axis{0};                     ///< position among the axes
+  enum class Kind : std::uint8_t {
+    Stop,
+    Rest,
+    Effort
+  };                    ///< reaches a stop; slides no more; passes what holds it
+  double time{0};       ///< [s]
+  std::size_t axis{0};  ///< position among the axes
   Kind kind{Kind::Stop};
   bool upper{false};  ///< Stop: which; Effort: that of the bounds of what holds it
   double slope{0};    ///< of the number that crosses, by time
@@ -137,7 +141,7 @@ class AxisGuard {
   std::vector<RigidMotion> grounds_{};
   std::vector<double> q_dot_{}, v_dot_{}, change_{}, efforts_{}, effort_of_axis_{};
   std::vector<std::uint8_t> locked_{}, open_{};  ///< by rate; by axis: to be decided
-  std::vector<AxisMode> before_{};  ///< modes that are being decided anew
+  std::vector<AxisMode> before_{};               ///< modes that are being decided anew
 };
 
 }  // namespace pantin

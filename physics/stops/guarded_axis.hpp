@@ -10,11 +10,11 @@
 namespace pantin {
 
 struct GuardedAxis {
-  std::uint32_t joint{0};    ///< position
-  int axis{0};               ///< which of the joint's numbers
-  std::uint32_t link{0};     ///< that the joint ties to its parent
-  std::uint32_t q{0}, v{0};  ///< coordinate and rate, among those of all trees
-  double sense{1};           ///< the joint's number is this times the coordinate
+  std::uint32_t joint{0};     ///< position
+  int axis{0};                ///< which of the joint's numbers
+  std::uint32_t link{0};      ///< that the joint ties to its parent
+  std::uint32_t q{0}, v{0};   ///< coordinate and rate, among those of all trees
+  double sense{1};            ///< the joint's number is this times the coordinate
   double lower{0}, upper{0};  ///< of the coordinate [rad or m]
   double restitution{0};
   double friction{0};  ///< [N m or N]

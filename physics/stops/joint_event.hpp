@@ -18,12 +18,12 @@ enum class JointEventKind : std::uint8_t {
 [[nodiscard]] std::string_view to_string(JointEventKind kind) noexcept;
 
 struct JointEvent {
-  double time{0};    ///< [s]
-  JointId joint{};   ///< of a broken joint: the id that it had
-  int axis{0};       ///< which of the joint's numbers; 0 of a joint that broke
+  double time{0};   ///< [s]
+  JointId joint{};  ///< of a broken joint: the id that it had
+  int axis{0};      ///< which of the joint's numbers; 0 of a joint that broke
   JointEventKind kind{JointEventKind::StopHit};
-  double value{0};   ///< of the number [rad or m]; 0 of a joint that broke
-  double rate{0};    ///< of the number before the event [rad/s or m/s]; 0 of a joint that broke
+  double value{0};  ///< of the number [rad or m]; 0 of a joint that broke
+  double rate{0};   ///< of the number before the event [rad/s or m/s]; 0 of a joint that broke
 };
 
 }  // namespace pantin

@@ -1,5 +1,5 @@
-// As in reaction.cpp, but for all joints at once: what a link and all it carries need in order to move as they
-// do, less what acts on them from outside, summed from the leaves.
+// As in reaction.cpp, but for all joints at once: what a link and all it carries need in order to move as
+// they do, less what acts on them from outside, summed from the leaves.
 #include <pantin/physics/stops/joint_loads.hpp>
 
 #include <algorithm>

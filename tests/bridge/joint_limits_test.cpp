@@ -19,8 +19,8 @@ void settle(Stage& s, const Vector3& g_W) {
 }
 
 TEST(JointLimits, HoldASliderInTheUnitsOfItsLink) {
-  // Under a parent that scales by 3 along the axis, limits of -0.1 and 0.5 of the link are -0.3 and 1.5 m of the
-  // joint; a mirror along the axis leaves them what they are for the link.
+  // Under a parent that scales by 3 along the axis, limits of -0.1 and 0.5 of the link are -0.3 and 1.5 m of
+  // the joint; a mirror along the axis leaves them what they are for the link.
   for (const double scale : {3.0, -3.0}) {
     for (const double g : {9.81, -9.81}) {
       Stage s;
@@ -39,8 +39,8 @@ TEST(JointLimits, HoldASliderInTheUnitsOfItsLink) {
 }
 
 TEST(JointLimits, HoldAPivotUnderAMirror) {
-  // The value of a link counts the other way round in a mirrored parent; its limits are its own either way, and
-  // shift with its zero.
+  // The value of a link counts the other way round in a mirrored parent; its limits are its own either way,
+  // and shift with its zero.
   for (const double side : {1.0, -1.0}) {
     for (const double offset : {0.0, 2.0}) {
       Stage s;
@@ -103,8 +103,8 @@ TEST(JointLimits, GoWithDryFriction) {
 }
 
 TEST(JointLimits, LetABrokenJointGoUntilTheNodeIsHandedOverAnew) {
-  // A joint that cannot bear the weight breaks in the first update: the node has no joint, a warning says so, it
-  // falls freely, and what comes next works as ever.
+  // A joint that cannot bear the weight breaks in the first update: the node has no joint, a warning says so,
+  // it falls freely, and what comes next works as ever.
   Stage s;
   const NodeId id = box(s, s.scene.root(), "arm", Affine::Identity());
   NodeBody body = *s.bridge.node_body(id);

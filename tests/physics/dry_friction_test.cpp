@@ -80,8 +80,8 @@ struct BrakedSpring : BrakedBlock {
 };
 
 TEST(DryFriction, TakesTwoFOverKFromEachHalfSwing) {
-  // Between turns the motion is a cosine about +-F/k, so that each half swing, of pi sqrt(m / k), ends 2 F / k
-  // nearer to the middle, until the spring no longer overcomes friction: there it sticks.
+  // Between turns the motion is a cosine about +-F/k, so that each half swing, of pi sqrt(m / k), ends 2 F /
+  // k nearer to the middle, until the spring no longer overcomes friction: there it sticks.
   const double step = 2 * BrakedSpring::kFriction / BrakedSpring::kStiffness, begin = 0.4;
   const double half = M_PI * std::sqrt(2 / BrakedSpring::kStiffness);
   BrakedSpring world{"gauss16", begin};
@@ -145,9 +145,9 @@ TEST(DryFriction, BreaksLooseWhereTheLoadPassesIt) {
 }
 
 TEST(DryFriction, EndsHoweverManyJointsChatter) {
-  // 60 rods on random pivots with random friction and stops, in steps so long that some are crowded: every step
-  // ends, and as stops without restitution and friction only take energy, none comes from anywhere (but for
-  // 1e-2, the error of short steps).
+  // 60 rods on random pivots with random friction and stops, in steps so long that some are crowded: every
+  // step ends, and as stops without restitution and friction only take energy, none comes from anywhere (but
+  // for 1e-2, the error of short steps).
   PhysicsManager physics;
   physics.set_integrator(make_integrator("gauss8"));
   physics.forces().add(Gravity{});
@@ -156,7 +156,8 @@ TEST(DryFriction, EndsHoweverManyJointsChatter) {
   BodyId above;
   for (int i = 0; i < 60; ++i) {
     const Vector3 at{0.2 * i, 0, 0};
-    const BodyId rod = physics.add(RigidBodySettings{.name = "rod", .X_WB = {at, Quaternion::Identity()}, .mass = test::lopsided_mass()});
+    const BodyId rod = physics.add(RigidBodySettings{
+        .name = "rod", .X_WB = {at, Quaternion::Identity()}, .mass = test::lopsided_mass()});
     const Vector3 axis = Vector3{number(random), number(random), number(random)}.normalized();
     PivotSettings pivot = joint_here<PivotSettings>(physics, above, rod, {at, facing(axis)});
     pivot.axis = {.lower = -0.5, .upper = 0.5, .friction = std::exp(3 * number(random))};

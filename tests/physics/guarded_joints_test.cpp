@@ -67,8 +67,8 @@ TEST(GuardedJoints, GoOnFromASnapshotToTheBit) {
 }
 
 TEST(GuardedJoints, MoveAlikeWithEveryAccurateIntegrator) {
-  // Gauss in lanes (with masks for what is locked), Gauss of other order and Dormand-Prince stage by stage find
-  // the same events and the same motion, to their tolerances magnified by the blows.
+  // Gauss in lanes (with masks for what is locked), Gauss of other order and Dormand-Prince stage by stage
+  // find the same events and the same motion, to their tolerances magnified by the blows.
   BrakedChain lanes{"gauss16"}, other{"dormand-prince"};
   other.physics.set_integrator(make_integrator("dormand-prince", 1e-11));
   int events = 0;
@@ -80,7 +80,8 @@ TEST(GuardedJoints, MoveAlikeWithEveryAccurateIntegrator) {
   }
   EXPECT_GE(events, 5);
   for (std::size_t j = 0; j < lanes.joints.size(); ++j) {
-    EXPECT_NEAR(lanes.physics.joint_value(lanes.joints[j])[0], other.physics.joint_value(other.joints[j])[0], 1e-7);
+    EXPECT_NEAR(lanes.physics.joint_value(lanes.joints[j])[0], other.physics.joint_value(other.joints[j])[0],
+                1e-7);
   }
 }
 
@@ -98,13 +99,14 @@ TEST(GuardedJoints, NeedNoShortSteps) {
   EXPECT_GE(most, 10);
   ASSERT_TRUE(run(fine.physics, 0.01, 50));
   for (std::size_t j = 0; j < coarse.joints.size(); ++j) {
-    EXPECT_NEAR(coarse.physics.joint_value(coarse.joints[j])[0], fine.physics.joint_value(fine.joints[j])[0], 1e-7);
+    EXPECT_NEAR(coarse.physics.joint_value(coarse.joints[j])[0], fine.physics.joint_value(fine.joints[j])[0],
+                1e-7);
   }
 }
 
 TEST(GuardedJoints, StopALoop) {
-  // A four-bar whose crank meets a stop after 1 rad: until then it moves as without one, whose time is known by
-  // quadrature, and bounces with restitution 1 so that it comes back to where it began in the same time.
+  // A four-bar whose crank meets a stop after 1 rad: until then it moves as without one, whose time is known
+  // by quadrature, and bounces with restitution 1 so that it comes back to where it began in the same time.
   test::FourBar bar;
   PhysicsManager& physics = bar.physics;
   physics.set_integrator(make_integrator("gauss16"));
@@ -114,7 +116,8 @@ TEST(GuardedJoints, StopALoop) {
   physics.remove(bar.joints[0]);
   bar.joints[0] = physics.add(std::move(pivot));
   EXPECT_TRUE(physics.unguarded_axes().empty());
-  const double there = test::FourBar::time(test::FourBar::kStart, test::FourBar::kRate, test::FourBar::kStart + 1);
+  const double there =
+      test::FourBar::time(test::FourBar::kStart, test::FourBar::kRate, test::FourBar::kStart + 1);
   int hits = 0;
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(physics.step(2 * there / 10).ok());
@@ -168,8 +171,8 @@ TEST(GuardedJoints, StayWhereTheyStartBeyondAStop) {
 }
 
 TEST(GuardedJoints, AnswerImpulsesAtOnce) {
-  // A block that leans on a stop is struck into it: the stop takes all of the impulse, and the velocity is zero
-  // when the step returns. Struck off it, it leaves with J / m.
+  // A block that leans on a stop is struck into it: the stop takes all of the impulse, and the velocity is
+  // zero when the step returns. Struck off it, it leaves with J / m.
   PhysicsManager physics;
   MassProperties mass;
   mass.mass = 2;
@@ -195,8 +198,8 @@ TEST(GuardedJoints, LockWhatHasNoRoom) {
   physics.set_integrator(make_integrator("gauss16"));
   physics.forces().add(Gravity{});
   const BodyId upper = physics.add(RigidBodySettings{.name = "upper", .mass = test::lopsided_mass()});
-  const BodyId lower = physics.add(
-      RigidBodySettings{.name = "lower", .X_WB = {{0.5, 0, 0}, Quaternion::Identity()}, .mass = test::lopsided_mass()});
+  const BodyId lower = physics.add(RigidBodySettings{
+      .name = "lower", .X_WB = {{0.5, 0, 0}, Quaternion::Identity()}, .mass = test::lopsided_mass()});
   physics.add(joint_here<PivotSettings>(physics, BodyId{}, upper, {{0, 0, 0}, facing({0, 1, 0})}));
   PivotSettings tip = joint_here<PivotSettings>(physics, upper, lower, {{0.5, 0, 0}, facing({1, 2, 0.5})});
   tip.axis = {.lower = 0, .upper = 0};
@@ -205,8 +208,8 @@ TEST(GuardedJoints, LockWhatHasNoRoom) {
   welded.set_integrator(make_integrator("gauss16"));
   welded.forces().add(Gravity{});
   const BodyId a = welded.add(RigidBodySettings{.name = "upper", .mass = test::lopsided_mass()});
-  const BodyId b = welded.add(
-      RigidBodySettings{.name = "lower", .X_WB = {{0.5, 0, 0}, Quaternion::Identity()}, .mass = test::lopsided_mass()});
+  const BodyId b = welded.add(RigidBodySettings{
+      .name = "lower", .X_WB = {{0.5, 0, 0}, Quaternion::Identity()}, .mass = test::lopsided_mass()});
   welded.add(joint_here<PivotSettings>(welded, BodyId{}, a, {{0, 0, 0}, facing({0, 1, 0})}));
   welded.add(joint_here<FixedSettings>(welded, a, b, {{0.5, 0, 0}, Quaternion::Identity()}));
   ASSERT_TRUE(run(physics, 0.02, 1));
@@ -223,8 +226,8 @@ TEST(GuardedJoints, LockWhatHasNoRoom) {
 }
 
 TEST(GuardedJoints, HoldWhatHasNoMassByFriction) {
-  // A massless pointer at the end of a pendulum, on a pivot with dry friction, weighs nothing: it stays where it
-  // is on the rod, which swings as without it. (Without friction it is a joint that moves nothing.)
+  // A massless pointer at the end of a pendulum, on a pivot with dry friction, weighs nothing: it stays where
+  // it is on the rod, which swings as without it. (Without friction it is a joint that moves nothing.)
   PhysicsManager physics, bare;
   const auto build = [](PhysicsManager& world, bool pointer) {
     world.forces().add(Gravity{});
@@ -234,7 +237,8 @@ TEST(GuardedJoints, HoldWhatHasNoMassByFriction) {
     MassProperties nothing;
     nothing.mass = 0;
     nothing.I_BBcm_B.setZero();
-    const BodyId tip = world.add(RigidBodySettings{.name = "tip", .X_WB = {{0.3, 0, 0}, Quaternion::Identity()}, .mass = nothing});
+    const BodyId tip = world.add(
+        RigidBodySettings{.name = "tip", .X_WB = {{0.3, 0, 0}, Quaternion::Identity()}, .mass = nothing});
     PivotSettings pivot = joint_here<PivotSettings>(world, rod, tip, {{0.3, 0, 0}, facing({1, 1, 0})});
     pivot.axis.friction = 0.1;
     world.add(std::move(pivot));

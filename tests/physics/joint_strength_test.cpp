@@ -13,8 +13,8 @@ using test::joint_here;
 using test::run;
 
 TEST(JointStrength, BreaksAPendulumWhereItsRodBearsTooMuch) {
-  // A point pendulum let go from the horizontal bears 3 m g sin(angle) along its rod: with a strength of 2 m g
-  // it breaks at the end of the first step past asin(2/3), and flies on with the momenta that it had.
+  // A point pendulum let go from the horizontal bears 3 m g sin(angle) along its rod: with a strength of 2 m
+  // g it breaks at the end of the first step past asin(2/3), and flies on with the momenta that it had.
   PhysicsManager physics;
   physics.set_integrator(make_integrator("gauss16"));
   physics.forces().add(Gravity{.g_W = {0, 0, -10}});
@@ -56,7 +56,8 @@ TEST(JointStrength, LetsTheWeakestOfARowOfFixedJointsGo) {
     mass.mass = 1;
     mass.I_BBcm_B = Matrix3::Identity();
     const Vector3 at{0, 0, -1.0 * i};
-    const BodyId body = physics.add(RigidBodySettings{.name = "link", .X_WB = {at, Quaternion::Identity()}, .mass = mass});
+    const BodyId body =
+        physics.add(RigidBodySettings{.name = "link", .X_WB = {at, Quaternion::Identity()}, .mass = mass});
     FixedSettings fixed = joint_here<FixedSettings>(physics, above, body, {at, Quaternion::Identity()});
     fixed.strength = {.force = i == 1 ? 15.0 : 35.0};
     joints.push_back(physics.add(std::move(fixed)));
@@ -79,12 +80,12 @@ TEST(JointStrength, JudgesAllJointsAsReactionDoes) {
     BodyId above;
     for (int i = 0; i < 4; ++i) {
       const Vector3 at{0.3 * i, 0, 0};
-      const BodyId rod = physics.add(
-          RigidBodySettings{.name = "rod", .X_WB = {at, Quaternion::Identity()}, .mass = test::lopsided_mass()});
-      SliderSettings slider =
-          joint_here<SliderSettings>(physics, above, rod, {at, facing({1, 0.5 * i, -1})});
+      const BodyId rod = physics.add(RigidBodySettings{
+          .name = "rod", .X_WB = {at, Quaternion::Identity()}, .mass = test::lopsided_mass()});
+      SliderSettings slider = joint_here<SliderSettings>(physics, above, rod, {at, facing({1, 0.5 * i, -1})});
       PivotSettings pivot = joint_here<PivotSettings>(physics, above, rod, {at, facing({0.1 * i, 1, 0})});
-      if (!strengths.empty()) slider.strength.torque = pivot.strength.torque = strengths[static_cast<std::size_t>(i)];
+      if (!strengths.empty())
+        slider.strength.torque = pivot.strength.torque = strengths[static_cast<std::size_t>(i)];
       joints.push_back(i == 2 ? physics.add(slider) : physics.add(pivot));
       above = rod;
     }

@@ -22,7 +22,8 @@ struct FallingBlock {
     MassProperties mass;
     mass.mass = 2;
     block = physics.add(RigidBodySettings{.name = "block", .mass = mass});
-    SliderSettings settings = joint_here<SliderSettings>(physics, BodyId{}, block, {{0, 0, 0}, facing({0, 0, 1})});
+    SliderSettings settings =
+        joint_here<SliderSettings>(physics, BodyId{}, block, {{0, 0, 0}, facing({0, 0, 1})});
     settings.axis = axis;
     slider = physics.add(std::move(settings));
   }
@@ -124,7 +125,8 @@ TEST(Stops, LetGoWhereTheLoadTurns) {
   MassProperties mass;
   mass.mass = 2;
   const BodyId block = physics.add(RigidBodySettings{.name = "block", .v_WBcm = {0, 0, A / W}, .mass = mass});
-  SliderSettings settings = joint_here<SliderSettings>(physics, ground, block, {{0, 0, 0}, facing({0, 0, 1})});
+  SliderSettings settings =
+      joint_here<SliderSettings>(physics, ground, block, {{0, 0, 0}, facing({0, 0, 1})});
   settings.axis = {.lower = 0};
   const JointId slider = physics.add(std::move(settings));
   const double leaves = std::asin(kG / A) / W;
@@ -138,7 +140,8 @@ TEST(Stops, LetGoWhereTheLoadTurns) {
   }
   EXPECT_NEAR(left, leaves, 1e-9);
   const double t = physics.time(), flown = t - leaves;
-  const double height = A / W / W * std::sin(W * leaves) + A / W * std::cos(W * leaves) * flown - kG / 2 * flown * flown;
+  const double height =
+      A / W / W * std::sin(W * leaves) + A / W * std::cos(W * leaves) * flown - kG / 2 * flown * flown;
   EXPECT_NEAR(physics.joint_value(slider), height - A / W / W * std::sin(W * t), 1e-9);
 }
 
@@ -150,9 +153,11 @@ struct SwingingChain {
     BodyId above;
     for (int i = 0; i < rods; ++i) {
       MassProperties mass = test::lopsided_mass(1 + 0.5 * i);
-      const BodyId rod = physics.add(RigidBodySettings{.name = "rod", .X_WB = {{0.4 * i, 0, 0}, Quaternion::Identity()}, .mass = mass});
+      const BodyId rod = physics.add(
+          RigidBodySettings{.name = "rod", .X_WB = {{0.4 * i, 0, 0}, Quaternion::Identity()}, .mass = mass});
       const Vector3 axis = i == 2 ? Vector3{0, 0.6, 0.8} : Vector3{0, 1, 0};
-      PivotSettings settings = joint_here<PivotSettings>(physics, above, rod, {{0.4 * i, 0, 0}, facing(axis)});
+      PivotSettings settings =
+          joint_here<PivotSettings>(physics, above, rod, {{0.4 * i, 0, 0}, facing(axis)});
       if (i == 1) settings.axis = {.lower = -0.3, .upper = 0.3, .restitution = restitution};
       joints.push_back(physics.add(std::move(settings)));
       above = rod;
