@@ -2,7 +2,8 @@
 //
 //   1  time step: cut where a driven motion breaks
 //   2  forces, 4 constraints: evaluated inside the derivative, at every stage of the integrator
-//   5  equations of motion by the chosen integrator
+//   5  equations of motion by the chosen integrator; where stops or dry friction act, from event to event
+//      (guarded_step.cpp)
 //   7  particles against deflectors, at the end of every part of a step that is cut
 //   6  impulses, those that particles gave among them, velocity projection, derived values
 //   8  moved bodies, energies, report
