@@ -16,6 +16,8 @@ void count(AdvanceReport& report, double h) {
   ++report.updates;
   report.longest_update = std::max(report.longest_update, h);
   report.evaluations += report.last.evaluations;
+  report.joint_events += report.last.joint_events;
+  report.crowded += report.last.crowded;
   if (report.last.inner_steps == 0) return;
   const bool first = report.inner_steps == 0;
   report.inner_steps += report.last.inner_steps;
@@ -76,6 +78,7 @@ AdvanceReport Bridge::Impl::run_due() {
       break;
     }
     clock.reached(*end);
+    if (h > 0 && !report.last.broken.empty()) forget_broken(report.last.broken, report.notes);
     count(report, h);
     if (toggle_is_due()) {
       write_scene(&report.notes);

@@ -124,6 +124,8 @@ BodyId Bridge::body_of(NodeId id) const {
   return binding == nullptr ? BodyId{} : binding->body;
 }
 
+void Bridge::leave_joints_free(bool free) { impl_->free_joints = free; }
+
 JointId Bridge::joint_of(NodeId id) const {
   const Binding* binding = impl_->find(id);
   return binding == nullptr ? JointId{} : binding->joint;

@@ -36,6 +36,7 @@ struct Bridge::Impl {
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
   std::vector<Toggle> toggles{};      ///< by time
+  bool free_joints{false};            ///< without limits and dry friction
   std::vector<Binding*> automatic{};  ///< bound by the bridge to carry somebody's joint
   std::vector<Binding*> sharing{};    ///< whose mass is carried by another body, or that carry another's
   /// Local matrices that nobody but the user writes and that animated bodies depend on, as last seen.
@@ -92,6 +93,7 @@ struct Bridge::Impl {
   void drop_idle_carriers();
   [[nodiscard]] JointTie wanted_tie(const Binding& binding) const;
   void untie(Binding& binding);
+  void forget_broken(std::span<const JointId> broken, std::vector<Diagnostic>& notes);
   void tie(Binding& binding, std::vector<Diagnostic>& notes);
   void tie_by_link(Binding& binding, std::vector<Diagnostic>& notes);
   void change_kind(Binding& binding);

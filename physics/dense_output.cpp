@@ -9,8 +9,9 @@ namespace pantin {
 
 void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v) {
   const double t = bodies.state.time;
-  integrator->record_into(keeps_motion ? &motion : nullptr);
-  if (!keeps_motion) return integrator->step(system, t, h, q, v);
+  const bool records = keeps_motion || guard.any();
+  integrator->record_into(records ? &motion : nullptr);
+  if (!records) return integrator->step(system, t, h, q, v);
   start.assign(q.begin(), q.end());
   start.insert(start.end(), v.begin(), v.end());
   const std::size_t parts = motion.parts();

@@ -40,6 +40,17 @@ void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
   if (lane_.fits) return;
   const TreeLayout& layout = constraints_.layout();
   lanes::fill_constants(layout, bodies_, lane_.links, lane_.free);
+  const Articulated& tree_kernel = constraints_.kernel();
+  for (std::size_t i = 0; tree_kernel.holds() && i < lane_.links.size(); ++i) {
+    lanes::LinkConstants& link = lane_.links[i];
+    link.holds = true;
+    with_model(layout.links[i], [&](auto model) {
+      for (std::uint32_t j = 0; j < std::uint32_t{decltype(model)::kRates}; ++j) {
+        link.locked[j] = tree_kernel.is_locked(link.v + j);
+        link.effort[j] = tree_kernel.effort(link.v + j);
+      }
+    });
+  }
   const auto count = static_cast<std::size_t>(kernel.lanes);
   std::size_t given = 0, largest = 0;
   for (const lanes::LinkConstants& link : lane_.links) {

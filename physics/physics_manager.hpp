@@ -19,6 +19,7 @@
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/state.hpp>
 #include <pantin/physics/step_report.hpp>
+#include <pantin/physics/stops/joint_event.hpp>
 
 namespace pantin {
 
@@ -118,6 +119,16 @@ class PhysicsManager {
   /// or N]; of a ball by axis of B's joint frame. Not what the joint itself holds: that is its reaction.
   [[nodiscard]] JointNumbers joint_effort(JointId id) const;
 
+
+  // Stops and dry friction
+  /// How one of a joint's numbers moves, by what the last step decided: Free before the first step.
+  [[nodiscard]] AxisMode axis_mode(JointId id, int axis = 0) const;
+  /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or
+  /// N], positive where it pushes the number up: evaluated on demand.
+  [[nodiscard]] double axis_effort(JointId id, int axis = 0) const;
+  /// Numbers of joints whose stops and friction do not act: in a loop in which all joints have them, those of
+  /// the joint that is cut; the distances of a planar joint whose B is nearer to the ground than its A.
+  [[nodiscard]] std::vector<std::pair<JointId, int>> unguarded_axes() const;
   /// Greatest distance [m] and angle [rad] by which body poses miss their joints, and joints their couplings.
   [[nodiscard]] JointDrift joint_drift() const;
 
@@ -152,6 +163,8 @@ class PhysicsManager {
   [[nodiscard]] StepReport step(double h);
   /// Bodies whose pose the last step changed, in the order of `bodies()`.
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
+  /// What happened to joints in the last step, in the order of time.
+  [[nodiscard]] std::span<const JointEvent> joint_events() const noexcept;
   [[nodiscard]] Energy energy() const;
 
   // Dense output

@@ -2,7 +2,8 @@
 //
 //   1  time step: cut where a driven motion breaks
 //   2  forces, 4 constraints: evaluated inside the derivative, at every stage of the integrator
-//   5  equations of motion by the chosen integrator
+//   5  equations of motion by the chosen integrator; where stops or dry friction act, from event to event
+//      (guarded_step.cpp)
 //   7  particles against deflectors, at the end of every part of a step that is cut
 //   6  impulses, those that particles gave among them, velocity projection, derived values
 //   8  moved bodies, energies, report
@@ -34,8 +35,11 @@ StepReport PhysicsManager::step(double h) {
   const double end = state.time + (h + state.time_compensation);
   const double slack = kBreakSlack * (std::abs(end) + h);
   const bool cut = world.next_break(state.time) < end - slack;
-  const bool keeps = cut || world.particles.size() > 0;
-  if (keeps) world.remember(cut);
+  world.guard.begin_step();
+  world.crowded = 0;
+  const bool in_parts = cut || world.guard.any();
+  const bool keeps = in_parts || world.particles.size() > 0;
+  if (keeps) world.remember(in_parts);
   world.particles.begin_step();
 
   StepReport report;
@@ -51,7 +55,7 @@ StepReport PhysicsManager::step(double h) {
     if (state.at_break) world.pass_break();
     if (!world.update(part)) {
       report = world.failure();
-      if (keeps) world.go_back(cut);
+      if (keeps) world.go_back(in_parts);
       world.motion.clear();
       return report;
     }
@@ -66,6 +70,11 @@ StepReport PhysicsManager::step(double h) {
   }
   world.apply_impulses();
   world.list_moved();
+  world.find_overloaded(*this, report.broken);
+  for (const JointId joint : report.broken) {
+    world.guard.events.push_back({.time = state.time, .joint = joint, .kind = JointEventKind::Broken});
+    remove(joint);
+  }
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
   report.loop_margin = world.dynamics.loop_margin;
@@ -73,6 +82,8 @@ StepReport PhysicsManager::step(double h) {
   report.refused_steps = world.inner.refused;
   report.shortest_step = world.inner.shortest;
   report.moved = world.moved.size();
+  report.joint_events = static_cast<int>(world.guard.events.size());
+  report.crowded = world.crowded;
   report.energy = world.energy();
   report.particles = world.particles.finish_step();
   return report;
@@ -128,17 +139,31 @@ void PhysicsManager::Impl::pass_break() {
 }
 
 bool PhysicsManager::Impl::update(double h) {
+  if (guard.any()) return guarded_update(h);
+  const Moving now = begin_update();
+  if (const StepControl* control = integrate_now(now, h)) note_control(*control);
+  return end_update(now, h);
+}
+
+PhysicsManager::Impl::Moving PhysicsManager::Impl::begin_update() {
   dynamics.begin();
-  const double t = bodies.state.time;
+  if (Dynamics* both = particles.begin_update()) {
+    return {both, particles.coordinates_now(), particles.velocities_now(), true};
+  }
+  return {&dynamics, dynamics.coordinates_now(), dynamics.velocities_now(), false};
+}
+
+StepControl* PhysicsManager::Impl::integrate_now(const Moving& now, double h) {
   StepControl* control = integrator->control();
   if (control != nullptr) std::swap(control->memory, bodies.state.memory);
-  if (Dynamics* both = particles.begin_update()) {
-    integrate(*both, h, particles.coordinates_now(), particles.velocities_now());
-    particles.bodies_have_moved();
-  } else {
-    integrate(dynamics, h, dynamics.coordinates_now(), dynamics.velocities_now());
-  }
-  if (control != nullptr) note_control(*control);
+  integrate(*now.system, h, now.q, now.v);
+  if (control != nullptr) std::swap(control->memory, bodies.state.memory);
+  return control;
+}
+
+bool PhysicsManager::Impl::end_update(const Moving& now, double h) {
+  const double t = bodies.state.time;
+  if (now.coupled) particles.bodies_have_moved();
   if (dynamics.first_not_finite() >= 0 || dynamics.open_loop().joint >= 0) {
     bodies.state.memory = {};
     return false;
@@ -147,8 +172,7 @@ bool PhysicsManager::Impl::update(double h) {
   return particles.update(t, h, *integrator);
 }
 
-void PhysicsManager::Impl::note_control(StepControl& control) {
-  std::swap(control.memory, bodies.state.memory);
+void PhysicsManager::Impl::note_control(const StepControl& control) {
   const bool first = inner.accepted == 0;
   inner.accepted += control.accepted;
   inner.refused += control.refused;
@@ -177,6 +201,7 @@ void PhysicsManager::Impl::apply_impulses() {
   }
   state.struck = false;
   constraints.prepare(bodies);
+  if (guard.any()) strike_now();
 }
 
 void PhysicsManager::Impl::list_moved() {

@@ -8,6 +8,7 @@
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/particles/particle_state.hpp>
 #include <pantin/physics/rigid_body.hpp>
+#include <pantin/physics/stops/axis_mode.hpp>
 
 namespace pantin {
 
@@ -36,6 +37,7 @@ struct State {
   std::vector<double> rates{};
   std::vector<double> cut_coordinates{};  ///< of joints that are cut to make trees of loops; 7 numbers each
   std::vector<std::uint8_t> edited{};     ///< per tree: velocities were set from outside since the last step
+  std::vector<AxisMode> axis_modes{};     ///< of numbers with stops or friction, in the order of the layout
   std::vector<ParticleSystemState> particles{};
 };
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <pantin/physics/ids.hpp>
 
@@ -57,6 +58,11 @@ struct StepReport {
   double loop_margin{1};
   std::size_t moved{0};  ///< bodies with a changed pose
   Energy energy{};       ///< of bodies, at the end
+  int joint_events{0};   ///< PhysicsManager::joint_events says which
+  /// Parts of the step in which events at stops and in dry friction crowded, so that its rest was advanced by
+  /// short steps of first order (guarded_step.cpp).
+  int crowded{0};
+  std::vector<JointId> broken{};  ///< joints that bore more than their strength and are gone
   ParticleReport particles{};
   BodyId body{};          ///< culprit of a failed step, if it is one body
   ParticleId particle{};  ///< the same, if it is a particle

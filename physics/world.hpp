@@ -10,6 +10,8 @@
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/physics_manager.hpp>
+#include <pantin/physics/stops/axis_guard.hpp>
+#include <pantin/physics/stops/joint_wrenches.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
@@ -22,6 +24,8 @@ struct PhysicsManager::Impl {
   WorldDynamics dynamics{bodies, constraints, forces};
   DeflectorManager deflectors{bodies};
   ParticleManager particles{bodies, forces, deflectors, dynamics};
+  AxisGuard guard{bodies, constraints, dynamics};
+  JointWrenches wrenches{bodies, constraints, dynamics};
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
@@ -29,7 +33,10 @@ struct PhysicsManager::Impl {
   MotionRecord motion{};             ///< inside the last step, where it is kept
   std::uint64_t motion_topology{0};  ///< that it was recorded with
   std::vector<double> start{};       ///< work space: q and v at the begin of an update
-  State before{};                    ///< to go back to, where a part of a step may fail after others are done
+  int crowded{0};                    ///< parts of the last step in which events crowded
+  StepMemory memory_before{};        ///< work space of a guarded piece, as are the next
+  std::vector<double> trial_q{}, trial_v{};
+  State before{};  ///< to go back to, where a part of a step may fail after others are done
 
   // The parts of a step, in order (physics_step.cpp).
   void remember(bool with_particles);
@@ -37,10 +44,29 @@ struct PhysicsManager::Impl {
   [[nodiscard]] double next_break(double t) const;
   void pass_break();
   [[nodiscard]] bool update(double h);
+  /// What moves in an update: everything joined or free, and particles that act on bodies.
+  struct Moving {
+    Dynamics* system{nullptr};
+    std::span<double> q{}, v{};
+    bool coupled{false};
+  };
+  [[nodiscard]] Moving begin_update();
+  /// The integrator's own control of the steps it took, not yet noted; null if it has none.
+  StepControl* integrate_now(const Moving& now, double h);
+  [[nodiscard]] bool end_update(const Moving& now, double h);
   void integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v);
-  void note_control(StepControl& control);
+  void note_control(const StepControl& control);
   void apply_impulses();
   void list_moved();
+  // The same between events at stops and in dry friction (guarded_step.cpp).
+  [[nodiscard]] bool guarded_update(double h);
+  [[nodiscard]] double guarded_piece(double h);
+  [[nodiscard]] std::optional<AxisCrossing> next_crossing(const Moving& now, std::size_t first);
+  void put_numbers(const Moving& now);
+  [[nodiscard]] bool short_steps(double h);
+  void strike_now();
+  /// Appends the joints that bear more than their strength now (stops/joint_loads.cpp).
+  void find_overloaded(const PhysicsManager& physics, std::vector<JointId>& out);
   [[nodiscard]] StepReport failure() const;
   [[nodiscard]] StepReport failure(const OpenLoop& open) const;
   [[nodiscard]] Energy energy() const;

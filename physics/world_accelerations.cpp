@@ -6,8 +6,8 @@ namespace pantin {
 void WorldDynamics::accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
                                       std::vector<Vector3>& a_cm) {
   begin();
-  std::vector<double> v_dot(v_.size());
-  evaluate({bodies_.state.time, Side::After}, coordinates_now(), velocities_now(), {}, v_dot);
+  error_rates_.resize(v_.size());
+  evaluate({bodies_.state.time, Side::After}, coordinates_now(), velocities_now(), {}, error_rates_);
   external = wrenches_;
   alpha.assign(bodies_.size(), Vector3::Zero());
   a_cm.assign(bodies_.size(), Vector3::Zero());

@@ -32,6 +32,8 @@ class WorldDynamics final : public Dynamics {
 
   /// Fits the work space to the bodies and trees of now; the constraint manager must be prepared.
   void begin();
+  /// To be called when what the kernel holds (Articulated::hold) has changed since begin.
+  void holds_have_changed() noexcept { lane_.fits = false; }
   /// Coordinates and velocities of the state reached.
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();
@@ -116,7 +118,7 @@ class WorldDynamics final : public Dynamics {
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };
-  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error and weights
+  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error, weights, accelerations_now
   std::vector<LinkMotion> base_{};
   bool has_animated_{false};
 

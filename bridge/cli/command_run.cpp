@@ -90,6 +90,8 @@ void add_world(CLI::App& app, RunOptions& options) {
          "--floating-base", [&options] { options.base = Base::Floating; },
          "Let the top of models with links move freely")
       ->excludes(fixed);
+  app.add_flag("--free-joints", options.free_joints,
+               "Leave out limits and dry friction of joints; damping stays");
 }
 
 }  // namespace

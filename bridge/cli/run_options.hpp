@@ -27,6 +27,7 @@ struct RunOptions {
   std::optional<UpAxis> up{};        ///< nothing = the first model's
   std::optional<Vector3> gravity{};  ///< [m/s^2]; nothing = 9.81 against the up axis
   Base base{Base::Fixed};
+  bool free_joints{false};         ///< without limits and dry friction
   std::vector<std::string> out{};  ///< files, each .csv or .json
 };
 

@@ -33,6 +33,7 @@ void Articulated::resize(const TreeLayout& layout) {
   u_.resize(layout.rates);
   D_.resize(layout.rates);
   scale_.resize(layout.rates);
+  holds_ = false;
 }
 
 void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<const RigidMotion> grounds,
@@ -69,6 +70,7 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
         for (int j = 0; j < Model::kRates; ++j) {
           S_a[j] = R_J * S_a[j];
           S_l[j] = R_J * S_l[j];
+          if (is_locked(link.v + static_cast<std::uint32_t>(j))) S_a[j] = S_l[j] = {};
           const double rate = v[link.v + static_cast<std::uint32_t>(j)];
           w_rel += rate * S_a[j];
           v_rel += rate * S_l[j];
@@ -170,6 +172,7 @@ void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span
         u[j] -= link.damping[static_cast<std::size_t>(j)] * v[link.v + static_cast<std::uint32_t>(j)];
       if (link.is_loaded && !efforts.empty()) u[j] += efforts[link.v + static_cast<std::uint32_t>(j)];
     }
+    if (holds_) hold_rate(link.v + static_cast<std::uint32_t>(j), !v.empty());
     scale_[link.v + static_cast<std::uint32_t>(j)] =
         dot(S_a[j], S_a[j]) * angular + dot(S_l[j], S_l[j]) * linear + rotor(j);
   }
@@ -178,6 +181,7 @@ void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span
     for (int k = 0; k <= j; ++k) {
       double d = dot(S_a[j], U_a[k]) + dot(S_l[j], U_l[k]);
       if (j == k) d += rotor(j);
+      if (k == j && is_locked(link.v + static_cast<std::uint32_t>(j))) d = 1;
       const auto row = static_cast<std::size_t>(j), col = static_cast<std::size_t>(k);
       for (std::size_t l = 0; l < col; ++l) d -= D[j][l] * D[k][l] * D[l][l];
       D[row][col] = k < j ? d / D[k][col] : d;

@@ -63,6 +63,18 @@ class Articulated {
   /// loaded links (empty: nothing; other links' are not read).
   void eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v,
                  std::span<const double> efforts = {});
+  /// Rates that are locked, so that they and their derivatives are zero by whatever effort it takes: their
+  /// columns vanish. And constant efforts by rate [N m or N], which act wherever damping does. Both of all
+  /// trees; until the next call, or resize.
+  void hold(std::span<const std::uint8_t> locked, std::span<const double> efforts);
+  void hold_nothing() noexcept { holds_ = false; }
+  [[nodiscard]] bool holds() const noexcept { return holds_; }
+  [[nodiscard]] bool is_locked(std::uint32_t rate) const { return holds_ && locked_[rate] != 0; }
+  [[nodiscard]] double effort(std::uint32_t rate) const { return holds_ ? efforts_[rate] : 0; }
+  /// After load_inertia and eliminate: the right-hand side of a tree is zero, then that of an effort more at
+  /// one rate. The next substitute says what these efforts alone accelerate.
+  void clear_efforts(const Tree& tree);
+  void push_effort(const TreeLayout& layout, std::uint32_t link, std::uint32_t rate, double effort);
   /// v' (or the rates, after load_momenta) of a tree, into the vector of all trees.
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
@@ -100,6 +112,9 @@ class Articulated {
  private:
   using Vec = kernel::Vec3<double>;
   void start_inertia(const TreeLink& link, LinkWork& work) const;
+  void hold_rate(std::uint32_t rate, bool moves);
+  template <int N>
+  void pass_effort(const TreeLink& link, double* y, Vec& p_a, Vec& p_l);
   template <int N>
   void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v,
                       std::span<const double> efforts);
@@ -117,6 +132,9 @@ class Articulated {
   std::vector<double> u_{};
   std::vector<std::array<double, 6>> D_{};
   std::vector<double> scale_{};  ///< by rate: the inertia to which D is compared
+  bool holds_{false};            ///< some rate is locked or has an effort
+  std::vector<std::uint8_t> locked_{};
+  std::vector<double> efforts_{};
 };
 
 }  // namespace pantin

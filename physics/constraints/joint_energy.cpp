@@ -104,7 +104,7 @@ void ConstraintManager::keep_cut_rotors(const BodyStore& bodies, const Tree& tre
   if (!any) return;
   kernel_.place(layout_, tree, grounds, at, bodies.state.coordinates, bodies.state.rates);
   loops_.solver().measure(layout_, tree, kernel_, grounds, at,
-                           {bodies.state.coordinates, bodies.state.rates, {}});
+                          {bodies.state.coordinates, bodies.state.rates, {}});
   loops_.solver().keep_rotor_rates(tree);
 }
 

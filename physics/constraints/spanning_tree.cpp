@@ -12,6 +12,11 @@ namespace pantin {
 
 namespace {
 
+bool is_guarded(const JointDefinition& joint) {
+  return std::any_of(joint.axes.begin(), joint.axes.end(),
+                     [](const JointAxis& axis) { return axis.has_stops() || axis.friction > 0; });
+}
+
 /// Rows that a joint costs where it is cut. A rotor there would be one more row that has to be told what it
 /// brings along into an impulse: other joints are cut first.
 int worth_keeping(const JointDefinition& joint) {
@@ -53,11 +58,13 @@ class Spanner {
 
  private:
   struct Candidate {
+    bool guarded{false};  ///< stops and dry friction act on what is not cut
     int rows{0};
     std::int32_t depth{0};
     std::size_t joint{0}, to{0};
     /// Whether it comes after the other.
     bool operator<(const Candidate& o) const {
+      if (guarded != o.guarded) return !guarded;
       if (rows != o.rows) return rows < o.rows;
       if (depth != o.depth) return depth > o.depth;
       return joint > o.joint;
@@ -153,7 +160,7 @@ class Spanner {
   void offer(std::size_t from) {
     for (std::size_t k = first_[from]; k < first_[from + 1]; ++k) {
       const std::size_t j = neighbours_[k], to = ends_[j].first == from ? ends_[j].second : ends_[j].first;
-      if (reached_[to] == 0) open_.push({weight(j), depth_[from], j, to});
+      if (reached_[to] == 0) open_.push({is_guarded(*joints_[j]), weight(j), depth_[from], j, to});
     }
   }
 

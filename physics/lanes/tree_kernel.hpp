@@ -159,6 +159,7 @@ class TreeKernel {
       RateLanes<T>* kept = rates(task, c);
       for (int j = 0; j < Model::kRates; ++j) {
         kept[j].S_a = R_J * S_a[j], kept[j].S_l = R_J * S_l[j];
+        if (c.holds && c.locked[j]) kept[j].S_a = kept[j].S_l = {};
         w_rel += rate[j] * kept[j].S_a;
         v_rel += rate[j] * kept[j].S_l;
       }
@@ -211,10 +212,20 @@ class TreeKernel {
       u -= T(c.damping[0]) * number(task, task.v, c.v);
       if (c.is_loaded) u += number(task, task.efforts, c.v), d += T(c.armature[0]);
     }
-    const T inverse = T(1) / d;
     RateLanes<T>& kept = *rates(task, c);
+    if (c.holds) {
+      if (c.locked[0]) return lock(kept);
+      u += T(c.effort[0]);
+    }
+    const T inverse = T(1) / d;
     kept.U_a = x, kept.U_l = y, kept.u = u, kept.D[0] = inverse;
     take_out(I, p_a, p_l, x, y, inverse * x, inverse * y, u);
+  }
+
+  /// What a rate keeps that is zero, and whose derivative is.
+  static void lock(RateLanes<T>& kept) {
+    kept.U_a = kept.U_l = {};
+    kept.u = T(0), kept.D[0] = T(1);
   }
 
   template <int N>
@@ -230,6 +241,7 @@ class TreeKernel {
         if (c.is_damped) k[j].u -= T(c.damping[j]) * number(task, task.v, rate);
         if (c.is_loaded) k[j].u += number(task, task.efforts, rate);
       }
+      if (c.holds) k[j].u = c.locked[j] ? T(0) : k[j].u + T(c.effort[j]);
     }
     // D = S^T U + armature = L d L^T: row j keeps L(j, 0..j-1) and 1 / d(j).
     for (int j = 0; j < N; ++j) {
@@ -239,6 +251,7 @@ class TreeKernel {
         if constexpr (N <= 3) {
           if (i == j && c.is_loaded) e[i] += T(c.armature[j]);
         }
+        if (c.holds && i == j && c.locked[j]) e[i] = T(1);
         for (int m = 0; m < i; ++m) e[i] -= e[m] * (i < j ? k[i].D[m] : k[j].D[m]);
         k[j].D[i] = i < j ? e[i] * k[i].D[i] : T(1) / e[i];
       }
