@@ -24,8 +24,9 @@ struct StabilityMemory {
 class StabilityWatch {
  public:
   /// Greatest |eigenvalue| of the derivative [1/s], to some per cent: what decays fastest, or swings fastest.
-  /// Known for kSteps steps, kStepsNear where it is not far below `enough`, then looked at again from the direction known; where the memory is empty, from
-  /// any. `enough`: rates that are clearly below need not be known better.
+  /// Known for kSteps steps, kStepsNear where it is not far below `enough`, then looked at again from the
+  /// direction known; where the memory is empty, from any. `enough`: the rate that matters, > 0 [1/s]; lower
+  /// ones need not be known as well.
   double fastest_rate(Dynamics& dynamics, Instant at, std::span<const double> q, std::span<const double> v,
                       double enough, StabilityMemory& memory);
   /// The velocity that takes the greatest part in the fastest motion, as it moves bodies.
@@ -35,9 +36,10 @@ class StabilityWatch {
 
  private:
   void start(std::size_t count, StabilityMemory& memory);
-  [[nodiscard]] double size(std::span<const double> y) const;
+  [[nodiscard]] double product(std::span<const double> x, std::span<const double> y) const;
+  [[nodiscard]] double rate_of_pair(std::span<const double> z, double stretch) const;
 
-  std::vector<double> weight_{}, y_{}, slope_{}, there_{};
+  std::vector<double> weight_{}, y_{}, slope_{}, there_{}, before_{};
 };
 
 /// Into how many equal parts a step h has to be cut so that an integrator bears motion of this rate.

@@ -20,7 +20,7 @@ struct Wheel {
     s.name = "wheel";
     s.mass.mass = 1;
     s.mass.I_BBcm_B = Vector3{0.01, 0.01, 0.02}.asDiagonal();
-    const BodyId body = physics.add(s);
+    const BodyId body = physics.add(std::move(s));
     joint = physics.add(PivotSettings{.name = "axle", .b = body, .damping = 0.02 * rate_of_decay});
     physics.set_joint_rate(joint, 3);
     physics.watch_stability(watched);
@@ -97,10 +97,10 @@ TEST(StabilityWatch, NoticesForcesThatComeLater) {
   RigidBodySettings s;
   s.X_WB.p = {1.001, 0, 0};
   s.mass.mass = 1;
-  const BodyId ball = physics.add(s);
+  const BodyId ball = physics.add(std::move(s));
   physics.watch_stability(true);
   EXPECT_EQ(physics.step(kStep).fast.rate, 0);
-  physics.forces().add(DampedSpring{.a = {}, .b = {.body = ball}, .rest_length = 1, .stiffness = 4e6});
+  physics.forces().add(DampedSpring{.b = {.body = ball}, .stiffness = 4e6, .rest_length = 1});
   const double energy = physics.energy().total();
   for (int i = 0; i < 200; ++i) {
     const StepReport report = physics.step(kStep);
