@@ -26,7 +26,9 @@ std::optional<SettingsProblem> problem_with(const TakeBackSettings& settings) {
 }
 
 Bridge::Impl::Impl(Scene& its_scene, PhysicsManager& its_physics, ClockSettings settings)
-    : scene{its_scene}, physics{its_physics}, clock{settings, its_physics.time()} {}
+    : scene{its_scene}, physics{its_physics}, clock{settings, its_physics.time()} {
+  physics.watch_stability(settings.watch_stability);
+}
 
 // Drivers in physics point to what the bindings own, so the bodies go with the bridge.
 Bridge::Impl::~Impl() {

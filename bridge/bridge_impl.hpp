@@ -30,6 +30,7 @@ struct Bridge::Impl {
   Player player{};                       ///< of all clips
   std::unordered_set<NodeId> leaving{};  ///< being taken out of the player, which trajectories still ask
   std::vector<PlayedEvent> passed{};     ///< since the last advance
+  std::unordered_set<NodeId> fast{};     ///< whose fast motion was told of
   std::unordered_map<NodeId, NodeBody> node_bodies{};
   Followers followers{};  ///< links that mimic others of their model
   std::unordered_map<NodeId, CouplingId> gears{};  ///< of simulated followers, to simulated leaders
@@ -181,6 +182,7 @@ struct Bridge::Impl {
   AdvanceReport run_due();
   [[nodiscard]] std::optional<double> next_update() const;
   [[nodiscard]] bool toggle_is_due() const;
+  void tell_of_fast_motion(const StepReport& report, std::vector<Diagnostic>& notes);
   void fire_toggles(std::vector<Diagnostic>& notes);
 
   Bridge* self{nullptr};  ///< for toggles

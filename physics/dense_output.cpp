@@ -7,15 +7,15 @@
 
 namespace pantin {
 
-void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v) {
-  const double t = bodies.state.time;
+void PhysicsManager::Impl::integrate_part(Integrator& with, Dynamics& system, double t, double h,
+                                          std::span<double> q, std::span<double> v) {
   const bool records = keeps_motion || guard.any();
-  integrator->record_into(records ? &motion : nullptr);
-  if (!records) return integrator->step(system, t, h, q, v);
+  with.record_into(records ? &motion : nullptr);
+  if (!records) return with.step(system, t, h, q, v);
   start.assign(q.begin(), q.end());
   start.insert(start.end(), v.begin(), v.end());
   const std::size_t parts = motion.parts();
-  integrator->step(system, t, h, q, v);
+  with.step(system, t, h, q, v);
   if (motion.parts() > parts) return;
   // The integrator has no interpolant: a cubic between the ends.
   const std::span<const double> q0 = std::span{start}.first(q.size()), v0 = std::span{start}.last(v.size());

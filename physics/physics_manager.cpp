@@ -256,6 +256,11 @@ void PhysicsManager::set_integrator(std::unique_ptr<Integrator> integrator) {
 
 const Integrator& PhysicsManager::integrator() const noexcept { return *impl_->integrator; }
 
+void PhysicsManager::watch_stability(bool watch) {
+  impl_->watches_stability = watch;
+  if (!watch) impl_->bodies.state.stability = {};
+}
+
 double PhysicsManager::time() const noexcept { return impl_->bodies.state.time; }
 
 void PhysicsManager::set_time(double time) {

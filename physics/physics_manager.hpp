@@ -156,6 +156,12 @@ class PhysicsManager {
   void set_integrator(std::unique_ptr<Integrator> integrator);
   [[nodiscard]] const Integrator& integrator() const noexcept;  ///< "rk4" unless set
 
+  /// Whether steps of integrators that take the steps they are asked for are watched: where something decays
+  /// or swings faster than the integrator bears (Integrator::stability_radius), the step is cut into parts,
+  /// or, where these were more than 32, taken by the implicit midpoint rule; StepReport::fast says so. Costs
+  /// some evaluations every 32 steps. Off unless set.
+  void watch_stability(bool watch);
+
   // Time
   [[nodiscard]] double time() const noexcept;  ///< [s]
   void set_time(double time);

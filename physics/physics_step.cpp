@@ -46,6 +46,7 @@ StepReport PhysicsManager::step(double h) {
   world.dynamics.evaluations = 0;
   world.dynamics.loop_margin = 1;
   world.inner = {};
+  world.fast = {};
   world.motion.clear();
   world.motion_topology = state.topology;
   for (bool done = false; !done; ++report.updates) {
@@ -78,6 +79,7 @@ StepReport PhysicsManager::step(double h) {
   report.time = state.time;
   report.evaluations = world.dynamics.evaluations;
   report.loop_margin = world.dynamics.loop_margin;
+  report.fast = world.fast;
   report.inner_steps = world.inner.accepted;
   report.refused_steps = world.inner.refused;
   report.shortest_step = world.inner.shortest;

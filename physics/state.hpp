@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/integrators/stability_watch.hpp>
 #include <pantin/physics/particles/particle_state.hpp>
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/stops/axis_mode.hpp>
@@ -25,6 +26,7 @@ struct State {
   double time{0};               ///< [s]
   double time_compensation{0};  ///< what rounding has kept back from `time` [s]
   StepMemory memory{};          ///< of an integrator that chooses its own steps
+  StabilityMemory stability{};  ///< where steps are watched
   bool at_break{false};         ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
   std::vector<BodyKinematics>

@@ -45,6 +45,15 @@ enum class StepStatus {
               ///< kept
 };
 
+/// Motion that decays or swings faster than the integrator bears at the step asked for.
+struct FastMotion {
+  double rate{0};          ///< [1/s]; 0 = nothing was too fast, or steps are not watched
+  int parts{1};            ///< into which updates were cut for it
+  bool implicitly{false};  ///< too many: taken whole, by the implicit midpoint rule
+  BodyId body{};    ///< what takes the greatest part in it: a body without joints, or the root of a tree
+  JointId joint{};  ///< or a joint; both null where particles do
+};
+
 struct StepReport {
   StepStatus status{StepStatus::Done};
   double time{0};           ///< reached [s]
@@ -56,6 +65,7 @@ struct StepReport {
   /// How near closed loops came to a singular position, as where bars are in line, at any evaluation: about
   /// the square of the angle that is left; 1 = far away, or no loops.
   double loop_margin{1};
+  FastMotion fast{};
   std::size_t moved{0};  ///< bodies with a changed pose
   Energy energy{};       ///< of bodies, at the end
   int joint_events{0};   ///< PhysicsManager::joint_events says which

@@ -8,6 +8,7 @@
 #include <pantin/physics/deflectors/deflector_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/integrators/stability_watch.hpp>
 #include <pantin/physics/particles/particle_manager.hpp>
 #include <pantin/physics/physics_manager.hpp>
 #include <pantin/physics/stops/axis_guard.hpp>
@@ -29,6 +30,10 @@ struct PhysicsManager::Impl {
   std::vector<BodyId> moved{};
   std::vector<RigidMotion> grounds{};
   StepControl inner{};  ///< sums over the parts of a step
+  bool watches_stability{false};
+  StabilityWatch watch{};
+  std::unique_ptr<Integrator> implicit{};  ///< for motion that would take too many parts
+  FastMotion fast{};                       ///< in the step at hand
   bool keeps_motion{false};
   MotionRecord motion{};             ///< inside the last step, where it is kept
   std::uint64_t motion_topology{0};  ///< that it was recorded with
@@ -55,6 +60,11 @@ struct PhysicsManager::Impl {
   StepControl* integrate_now(const Moving& now, double h);
   [[nodiscard]] bool end_update(const Moving& now, double h);
   void integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v);
+  void integrate_part(Integrator& with, Dynamics& system, double t, double h, std::span<double> q,
+                      std::span<double> v);
+  [[nodiscard]] int watched_parts(Dynamics& system, double h, std::span<const double> q,
+                                  std::span<const double> v);
+  void name_fast_motion(Dynamics& system);
   void note_control(const StepControl& control);
   void apply_impulses();
   void list_moved();
@@ -65,7 +75,7 @@ struct PhysicsManager::Impl {
   void put_numbers(const Moving& now);
   [[nodiscard]] bool short_steps(double h);
   void strike_now();
-  /// Appends the joints that bear more than their strength now (stops/joint_loads.cpp).
+  /// Appends the joints that bear more than their strength now (stops/joint_wrenches.cpp).
   void find_overloaded(const PhysicsManager& physics, std::vector<JointId>& out);
   [[nodiscard]] StepReport failure() const;
   [[nodiscard]] StepReport failure(const OpenLoop& open) const;

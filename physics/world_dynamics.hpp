@@ -53,6 +53,12 @@ class WorldDynamics final : public Dynamics {
   /// All bodies where q and v put them.
   [[nodiscard]] const std::vector<BodyKinematics>& kinematics_at(Instant at, std::span<const double> q,
                                                                  std::span<const double> v);
+  /// Whose velocity stands at this place of v: the position of a body without joints or, for a tree, of a
+  /// joint (of a floating root: of its first body).
+  struct Mover {
+    std::int32_t body{-1}, joint{-1};
+  };
+  [[nodiscard]] Mover mover_of(std::size_t velocity) const;
   /// Of a closure, as accelerations_now has left it.
   [[nodiscard]] CutWrench cut_wrench(std::uint32_t closure) const;
 

@@ -36,7 +36,8 @@ ClockSettings RunWorld::clock_of(const RunOptions& options) {
   // Nobody waits for a frame here, so no update is ever dropped.
   return {.step = options.step,
           .max_updates = std::numeric_limits<int>::max(),
-          .stepping = options.adaptive ? Stepping::Adaptive : Stepping::Fixed};
+          .stepping = options.adaptive ? Stepping::Adaptive : Stepping::Fixed,
+          .watch_stability = !options.unwatched};
 }
 
 Affine rotation_between(UpAxis from, UpAxis to) {

@@ -22,6 +22,7 @@ ForceId ForceManager::add_law(std::unique_ptr<ForceLaw> law) {
   PANTIN_EXPECTS(law, "the law is null; give an object");
   const ForceId id{.index = next_++, .generation = 1};
   laws_.push_back({id, std::move(law)});
+  ++revision_;
   return id;
 }
 
@@ -36,11 +37,15 @@ void ForceManager::remove(ForceId id) {
   const std::size_t position = position_of(id);
   PANTIN_EXPECTS(position < size(), dead_force(id));
   laws_.erase(laws_.begin() + static_cast<std::ptrdiff_t>(position));
+  ++revision_;
 }
 
 std::size_t ForceManager::remove_laws_of(BodyId body) {
   PANTIN_EXPECTS(body, "the body is null; give the body whose laws are to go");
-  return std::erase_if(laws_, [body](const Entry& entry) { return entry.law->names(body); });
+  const std::size_t removed =
+      std::erase_if(laws_, [body](const Entry& entry) { return entry.law->names(body); });
+  revision_ += removed;
+  return removed;
 }
 
 bool ForceManager::contains(ForceId id) const noexcept { return position_of(id) < size(); }

@@ -26,6 +26,8 @@ class ForceManager {
   std::size_t remove_laws_of(BodyId body);
   [[nodiscard]] bool contains(ForceId id) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return laws_.size(); }
+  /// Changes with every law that is added or removed.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
   /// Adds all laws' wrenches, in the order in which the laws were added.
   void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
@@ -57,6 +59,7 @@ class ForceManager {
 
   std::vector<Entry> laws_{};
   std::uint32_t next_{1};
+  std::uint64_t revision_{0};
 };
 
 }  // namespace pantin

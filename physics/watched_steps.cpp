@@ -1,0 +1,70 @@
+// Steps that are watched: cut, or taken implicitly, where the chosen integrator would not bear them.
+#include <cmath>
+
+#include <pantin/physics/constraints/joint_models.hpp>
+#include <pantin/physics/world.hpp>
+
+namespace pantin {
+namespace {
+
+/// What would take more parts is taken by the implicit midpoint rule.
+constexpr int kMostParts = 32;
+
+}  // namespace
+
+void PhysicsManager::Impl::integrate(Dynamics& system, double h, std::span<double> q, std::span<double> v) {
+  const double t = bodies.state.time;
+  const int parts = watched_parts(system, h, q, v);
+  if (parts == 1) return integrate_part(*integrator, system, t, h, q, v);
+  fast.rate = bodies.state.stability.rate;
+  fast.implicitly = parts > kMostParts;
+  fast.parts = fast.implicitly ? 1 : parts;
+  name_fast_motion(system);
+  if (fast.implicitly) {
+    if (implicit == nullptr) implicit = make_integrator("implicit-midpoint");
+    return integrate_part(*implicit, system, t, h, q, v);
+  }
+  for (int i = 0; i < parts; ++i) {
+    const double from = i * h / parts, to = (i + 1) * h / parts;
+    integrate_part(*integrator, system, t + from, to - from, q, v);
+  }
+}
+
+int PhysicsManager::Impl::watched_parts(Dynamics& system, double h, std::span<const double> q,
+                                        std::span<const double> v) {
+  const double radius = integrator->stability_radius();
+  if (!watches_stability || std::isinf(radius)) return 1;
+  StabilityMemory& memory = bodies.state.stability;
+  const std::uint64_t scene = bodies.state.topology + forces.revision();
+  if (memory.scene != scene) memory = {.scene = scene};
+  const int asked = dynamics.evaluations;  // what watching costs is not the motion's
+  const double rate =
+      watch.fastest_rate(system, {bodies.state.time, Side::After}, q, v, radius / h, memory);
+  dynamics.evaluations = asked;
+  return parts_for(rate, h, *integrator);
+}
+
+void PhysicsManager::Impl::name_fast_motion(Dynamics& system) {
+  const std::size_t velocity = watch.fastest_velocity(system, bodies.state.stability);
+  const WorldDynamics::Mover mover = dynamics.mover_of(velocity);
+  if (mover.body >= 0) fast.body = bodies.ids[static_cast<std::size_t>(mover.body)];
+  if (mover.joint >= 0) fast.joint = constraints.id(static_cast<std::size_t>(mover.joint));
+}
+
+WorldDynamics::Mover WorldDynamics::mover_of(std::size_t velocity) const {
+  const TreeLayout& layout = constraints_.layout();
+  constexpr std::size_t kFreeVelocities = 6;
+  const std::size_t free = kFreeVelocities * free_bodies().size();
+  if (velocity < free) return {.body = static_cast<std::int32_t>(free_bodies()[velocity / kFreeVelocities])};
+  for (const TreeLink& link : layout.links) {
+    const std::size_t begin = free + link.v;
+    std::size_t count = 0;
+    with_model(link, [&count](auto model) { count = static_cast<std::size_t>(decltype(model)::kRates); });
+    if (velocity < begin || velocity >= begin + count) continue;
+    if (link.joint >= 0) return {.joint = link.joint};
+    return {.body = static_cast<std::int32_t>(layout.members[link.members_begin].body)};
+  }
+  return {};  // not of a body
+}
+
+}  // namespace pantin
