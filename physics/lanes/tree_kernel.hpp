@@ -214,18 +214,12 @@ class TreeKernel {
     }
     RateLanes<T>& kept = *rates(task, c);
     if (c.holds) {
-      if (c.locked[0]) return lock(kept);
+      if (c.locked[0]) return kept.lock();
       u += T(c.effort[0]);
     }
     const T inverse = T(1) / d;
     kept.U_a = x, kept.U_l = y, kept.u = u, kept.D[0] = inverse;
     take_out(I, p_a, p_l, x, y, inverse * x, inverse * y, u);
-  }
-
-  /// What a rate keeps that is zero, and whose derivative is.
-  static void lock(RateLanes<T>& kept) {
-    kept.U_a = kept.U_l = {};
-    kept.u = T(0), kept.D[0] = T(1);
   }
 
   template <int N>
