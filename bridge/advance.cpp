@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pantin/bridge/bridge_impl.hpp>
+#include <pantin/physics/setting_checks.hpp>
 #include <pantin/scenegraph/expects.hpp>
 
 namespace pantin {
@@ -16,6 +17,8 @@ void count(AdvanceReport& report, double h) {
   ++report.updates;
   report.longest_update = std::max(report.longest_update, h);
   report.evaluations += report.last.evaluations;
+  report.joint_events += report.last.joint_events;
+  report.crowded += report.last.crowded;
   if (report.last.inner_steps == 0) return;
   const bool first = report.inner_steps == 0;
   report.inner_steps += report.last.inner_steps;
@@ -76,7 +79,9 @@ AdvanceReport Bridge::Impl::run_due() {
       break;
     }
     clock.reached(*end);
+    if (h > 0 && !report.last.broken.empty()) forget_broken(report.last.broken, report.notes);
     count(report, h);
+    tell_of_fast_motion(report.last, report.notes);
     if (toggle_is_due()) {
       write_scene(&report.notes);
       fire_toggles(report.notes);
@@ -88,6 +93,25 @@ AdvanceReport Bridge::Impl::run_due() {
   report.time = physics.time();
   report.events = std::exchange(passed, {});
   return report;
+}
+
+void Bridge::Impl::tell_of_fast_motion(const StepReport& report, std::vector<Diagnostic>& notes) {
+  const FastMotion& motion = report.fast;
+  if (motion.rate == 0) return;
+  const auto culprit = std::find_if(bindings.begin(), bindings.end(), [&](const auto& entry) {
+    const Binding& binding = *entry.second;
+    return motion.joint ? binding.joint == motion.joint : binding.body == motion.body;
+  });
+  if (culprit == bindings.end() || !fast.insert(culprit->first).second) return;
+  const std::string name = motion.joint ? physics.joint(motion.joint).name : "";
+  const std::string step = text_of(clock.settings().step), integrator{physics.integrator().name()};
+  const std::string done = motion.implicitly ? "taken by the implicit midpoint rule"
+                                             : "cut into " + std::to_string(motion.parts) + " parts";
+  notes.push_back(note(Severity::Note, culprit->first,
+                       (name.empty() ? "decays or swings" : "joint '" + name + "' decays or swings") +
+                           " at " + std::to_string(std::lround(motion.rate)) + " /s, too fast for " +
+                           integrator + " in steps of " + step + " s, which are " + done,
+                       "take a shorter step, or an integrator for stiff motion (implicit-midpoint, radau)"));
 }
 
 std::optional<double> Bridge::Impl::next_update() const {

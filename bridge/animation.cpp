@@ -194,7 +194,7 @@ void Bridge::Impl::set_followers(NodeId leader, double value, const std::unorder
                                  std::vector<Diagnostic>& notes) {
   for (const Follower& follower : all_followers(followers, leader, except)) {
     const Link* following = scene.contains(follower.node) ? scene.link(follower.node) : nullptr;
-    if (following == nullptr || !following->mimic) continue;
+    if (following == nullptr || !following->mimic || is_held_by_gear(follower.node)) continue;
     for (Diagnostic& said : set_link_value(follower.node, follower.multiplier * value + follower.offset))
       notes.push_back(std::move(said));
   }

@@ -37,6 +37,7 @@ struct Binding {
   Binding* simulated_above{nullptr};  ///< nearest simulated one
 
   JointTie tie{};
+  bool is_broken{false};                            ///< its joint has broken since it was handed over
   std::array<double, 3> metres_per_value{1, 1, 1};  ///< by number of the link's value (links_to_joints.hpp)
 
   MassProperties own_mass{0, Vector3::Zero(), Matrix3::Zero()};  ///< in B, as derived; before composites

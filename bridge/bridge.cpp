@@ -26,7 +26,9 @@ std::optional<SettingsProblem> problem_with(const TakeBackSettings& settings) {
 }
 
 Bridge::Impl::Impl(Scene& its_scene, PhysicsManager& its_physics, ClockSettings settings)
-    : scene{its_scene}, physics{its_physics}, clock{settings, its_physics.time()} {}
+    : scene{its_scene}, physics{its_physics}, clock{settings, its_physics.time()} {
+  physics.watch_stability(settings.watch_stability);
+}
 
 // Drivers in physics point to what the bindings own, so the bodies go with the bridge.
 Bridge::Impl::~Impl() {
@@ -123,6 +125,8 @@ BodyId Bridge::body_of(NodeId id) const {
   const Binding* binding = impl_->find(id);
   return binding == nullptr ? BodyId{} : binding->body;
 }
+
+void Bridge::leave_joints_free(bool free) { impl_->free_joints = free; }
 
 JointId Bridge::joint_of(NodeId id) const {
   const Binding* binding = impl_->find(id);

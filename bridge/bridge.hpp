@@ -50,6 +50,8 @@ struct NodeBody {
   std::vector<Shape> shapes{};           ///< solids for deriving the mass (and, later, collision)
   std::vector<ModelMesh> meshes{};       ///< used where there are no shapes
   double joint_damping{0};               ///< of the node's link [N m s/rad] or [N s/m], >= 0
+  double joint_friction{0};              ///< dry friction of each of its numbers [N m] or [N], >= 0
+  JointStrength joint_strength{};        ///< what the joint bears before it breaks
 };
 
 struct HandOverSettings {
@@ -92,6 +94,8 @@ struct AdvanceReport {
   int inner_steps{0};           ///< that an integrator which chooses its steps took inside
   double shortest_step{0};      ///< of these [s]
   std::int64_t evaluations{0};  ///< of the derivative, in all of them
+  int joint_events{0};          ///< at stops and in dry friction, in all of them
+  int crowded{0};               ///< StepReport::crowded, of all of them
   double time{0};               ///< physics time reached [s]
   double dropped{0};            ///< elapsed time thrown away by the cap on updates [s]
   StepReport last{};  ///< of the last step; not ok = the advance stopped there, scene untouched by it
@@ -135,8 +139,12 @@ class Bridge {
   /// Nodes -> bodies, links -> joints, with the pose and velocity that the nodes have now. A node with a link
   /// is joined to the nearest bound node above; if there is none, to the world, or to its parent if that is
   /// played. Subtree takes the node and all below it that declare mass or have a link that moves; what
-  /// follows them rigidly lends them its mass. Limits, mimic and friction of links are not enforced yet;
-  /// animated links that mimic a simulated one follow it, their bodies one advance later.
+  /// follows them rigidly lends them its mass. Limits of links are stops without bounce; where a link starts
+  /// beyond one, the stop is where it stands until it has moved back. A link that mimics another is geared to
+  /// it exactly while both are simulated, whichever came first: each moves the other. An animated link that
+  /// mimics a simulated one follows it, its body one advance later; a simulated one that mimics an animated
+  /// one moves on its own, which is said. A gear that cannot be met is left out, which is said too. A joint
+  /// that breaks (NodeBody::joint_strength) is gone until its node is taken back and handed over again.
   std::vector<Diagnostic> hand_over(NodeId id, Scope scope = Scope::Node,
                                     const HandOverSettings& settings = {});
   /// Simulated nodes are animated again. One that a clip moves, or moves with, is led back to it from where
@@ -168,8 +176,12 @@ class Bridge {
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
   /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
-  /// set. A value that the joint's loop cannot take is an error that names the joint and changes nothing.
+  /// set, unless both are simulated: then its leader follows it. A value that the joint's loop cannot take is an
+  /// error that names the joint and changes nothing.
   std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
+
+  /// Whether joints made from now on leave out limits and dry friction of links. Off unless set.
+  void leave_joints_free(bool free);
 
   // Look-up
   [[nodiscard]] std::optional<Drive> drive_of(NodeId id) const;  ///< nothing for a node without a body

@@ -30,11 +30,14 @@ struct Bridge::Impl {
   Player player{};                       ///< of all clips
   std::unordered_set<NodeId> leaving{};  ///< being taken out of the player, which trajectories still ask
   std::vector<PlayedEvent> passed{};     ///< since the last advance
+  std::unordered_set<NodeId> fast{};     ///< whose fast motion was told of
   std::unordered_map<NodeId, NodeBody> node_bodies{};
   Followers followers{};  ///< links that mimic others of their model
+  std::unordered_map<NodeId, CouplingId> gears{};  ///< of simulated followers, to simulated leaders
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};
   std::vector<Toggle> toggles{};      ///< by time
+  bool free_joints{false};            ///< without limits and dry friction
   std::vector<Binding*> automatic{};  ///< bound by the bridge to carry somebody's joint
   std::vector<Binding*> sharing{};    ///< whose mass is carried by another body, or that carry another's
   /// Local matrices that nobody but the user writes and that animated bodies depend on, as last seen.
@@ -91,6 +94,7 @@ struct Bridge::Impl {
   void drop_idle_carriers();
   [[nodiscard]] JointTie wanted_tie(const Binding& binding) const;
   void untie(Binding& binding);
+  void forget_broken(std::span<const JointId> broken, std::vector<Diagnostic>& notes);
   void tie(Binding& binding, std::vector<Diagnostic>& notes);
   void tie_by_link(Binding& binding, std::vector<Diagnostic>& notes);
   void change_kind(Binding& binding);
@@ -101,6 +105,21 @@ struct Bridge::Impl {
   [[nodiscard]] Diagnostic not_allowed(const Binding& binding) const;
   void remember_written(Binding& binding) const;
   void hold_player(const Binding& binding);
+
+  // Simulated links that mimic simulated ones (mimic_gears.cpp)
+  /// Makes the couplings agree with who is simulated.
+  void couple(std::vector<Diagnostic>& notes);
+  [[nodiscard]] bool is_held_by_gear(NodeId follower) const;
+  [[nodiscard]] bool has_link_joint(NodeId id) const;
+  /// The gear of a simulated follower to the nearest simulated one of those that lead it, over animated links
+  /// that follow; a null if there is none.
+  [[nodiscard]] GearSettings wanted_gear(const Binding& follower,
+                                         const std::unordered_map<NodeId, Follower>& leaders) const;
+  void drop_gears(const std::unordered_map<NodeId, GearSettings>& wanted, std::vector<Diagnostic>& notes);
+  void note_distance(NodeId follower, const GearSettings& gear, std::vector<Diagnostic>& notes) const;
+  /// Takes away those of new gears that cannot be met.
+  void leave_out_unmet(std::vector<NodeId> added, std::vector<Diagnostic>& notes);
+  [[nodiscard]] Diagnostic note_on_joint(NodeId follower, std::string problem, std::string remedy) const;
 
   // Masses (weigh.cpp)
   [[nodiscard]] DerivedMass weigh(NodeId id, const Affine& M_BN, double density,
@@ -163,6 +182,7 @@ struct Bridge::Impl {
   AdvanceReport run_due();
   [[nodiscard]] std::optional<double> next_update() const;
   [[nodiscard]] bool toggle_is_due() const;
+  void tell_of_fast_motion(const StepReport& report, std::vector<Diagnostic>& notes);
   void fire_toggles(std::vector<Diagnostic>& notes);
 
   Bridge* self{nullptr};  ///< for toggles

@@ -23,6 +23,9 @@ struct ClockSettings {
   /// Adaptive counts only while the integrator keeps to a tolerance (Integrator::tolerance) and there are no
   /// particles, which meet deflectors update by update.
   Stepping stepping{Stepping::Fixed};
+  /// Whether steps are cut, or taken implicitly, where the integrator would not bear them
+  /// (PhysicsManager::watch_stability); a note says so once for each body or joint that is too fast.
+  bool watch_stability{true};
 };
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const ClockSettings& settings);
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStretchRate = 1e-4;   // [1/s]; single-precision keys of a constant scale stay below it
 constexpr double kRoundOff = 1e-9;      // of the rate of the whole matrix
+constexpr double kBeyond = 1e-9;        // [rad] or [m] beyond a stop that are worth a word
 constexpr double kFlatInertia = 1e-12;  // least over greatest principal moment of a body that can turn
 
 /// A node that is about to be simulated.
@@ -57,9 +58,9 @@ class Bridge::Impl::HandOver {
     nodes_.insert(nodes.begin(), nodes.end());
     for (const NodeId node : nodes) plan(node);
     refuse_fixed_below(id);
-    note_what_is_not_enforced();
     if (has_error(notes_)) return std::move(notes_);
     commit();
+    if (!has_error(notes_)) note_mimics_not_held();
     return std::move(notes_);
   }
 
@@ -133,22 +134,38 @@ class Bridge::Impl::HandOver {
     }
   }
 
-  void note_what_is_not_enforced() {
-    int limits = 0, mimics = 0;
+  void warn(int count, const char* what, const char* remedy) {
+    if (count == 0) return;
+    notes_.push_back(bridge_.note(Severity::Warning, plan_.front().node,
+                                  std::to_string(count) + " joint(s) here " + what, remedy));
+  }
+
+  void note_mimics_not_held() {
+    int mimics = 0;
     for (const Planned& planned : plan_) {
       const Link* link = bridge_.scene.link(planned.node);
-      if (link == nullptr) continue;
-      limits += std::any_of(link->limits.begin(), link->limits.begin() + limit_count(link->kind),
-                            [](const LinkLimits& given) { return given != LinkLimits{}; });
-      mimics += link->mimic.has_value();
+      mimics += link != nullptr && link->mimic && !bridge_.is_held_by_gear(planned.node);
     }
-    const auto warn = [&](int count, const char* what, const char* remedy) {
-      if (count == 0) return;
-      notes_.push_back(bridge_.note(Severity::Warning, plan_.front().node,
-                                    std::to_string(count) + " joint(s) here " + what, remedy));
+    warn(mimics, "mimic another, which is not held while they are simulated",
+         "hand over what leads them too, of the same instance, or expect them to move on their own");
+  }
+
+  /// Of joints just made, how many begin beyond their stops.
+  void note_beyond_stops() {
+    const auto is_beyond = [&](const Planned& planned) {
+      const JointId id = bridge_.find(planned.node)->joint;
+      if (!id) return false;
+      const JointDefinition& joint = bridge_.physics.joint(id);
+      const JointNumbers value = bridge_.physics.joint_value(id);
+      for (int i = 0; i < std::min(3, value.size()); ++i) {
+        const JointAxis& axis = joint.axes[static_cast<std::size_t>(i)];
+        if (value[i] < axis.lower - kBeyond || value[i] > axis.upper + kBeyond) return true;
+      }
+      return false;
     };
-    warn(limits, "have limits, which are not enforced while simulated", "expect them to move beyond");
-    warn(mimics, "mimic another, which is not enforced while simulated", "expect them to move on their own");
+    warn(static_cast<int>(std::count_if(plan_.begin(), plan_.end(), is_beyond)),
+         "start beyond their limits: the stop is where they stand until they have moved back",
+         "begin within the limits");
   }
 
   void commit() {
@@ -172,6 +189,7 @@ class Bridge::Impl::HandOver {
     if (!has_error(notes)) find_singular(notes);
     notes_.insert(notes_.end(), notes.begin(), notes.end());
     if (has_error(notes)) undo(tops);
+    else note_beyond_stops();
   }
 
   void create(const Planned& planned) {
@@ -196,6 +214,7 @@ class Bridge::Impl::HandOver {
     binding.density = settings_.density;
     binding.blend.reset();
     binding.is_remembered = false;
+    binding.is_broken = false;
   }
 
   void find_singular(std::vector<Diagnostic>& notes) {

@@ -28,7 +28,8 @@ Link base_link(const ModelNode& top, Base base) {
 
 NodeBody body_of_model(const ModelNode& node) {
   NodeBody body{node.mass, node.shapes, node.meshes};
-  if (node.dynamics) body.joint_damping = node.dynamics->damping;
+  if (node.dynamics)
+    body.joint_damping = node.dynamics->damping, body.joint_friction = node.dynamics->friction;
   return body;
 }
 

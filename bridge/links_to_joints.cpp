@@ -82,6 +82,18 @@ void place_on_axes(const Link& link, const Affine& M_WJ, Pose& X_WJ, LinkJoint& 
   }
 }
 
+/// The limits of a link as stops of its joint, number by number. A number that counts the other way round has
+/// its lower limit at the upper stop.
+void place_stops(const Link& link, LinkJoint& joint) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(limit_count(link.kind)); ++i) {
+    const LinkLimits& limits = link.limits[i];
+    if (limits == LinkLimits{}) continue;
+    const double metres = joint.metres_per_value[i];
+    joint.definition.axes[i].lower = std::min(metres * limits.lower, metres * limits.upper);
+    joint.definition.axes[i].upper = std::max(metres * limits.lower, metres * limits.upper);
+  }
+}
+
 }  // namespace
 
 JointNumbers joint_numbers(const LinkValue& value, const std::array<double, 3>& metres_per_value) {
@@ -116,6 +128,7 @@ std::optional<LinkJoint> joint_of_link(const Link& link, const LinkPlace& place)
 
   Pose X_WJ{M_WJ.translation(), frame.q};
   if (has_axis(link.kind)) place_on_axes(link, M_WJ, X_WJ, joint);
+  place_stops(link, joint);
   joint.definition.X_AJ = inverse(place.X_WA) * X_WJ;
   joint.definition.X_BJ =
       inverse(place.X_WB) *

@@ -16,7 +16,7 @@ struct LinkPlace {
 };
 
 struct LinkJoint {
-  JointDefinition definition{};  ///< ends and damping left to be filled in
+  JointDefinition definition{};  ///< with limits as stops; ends, damping and friction left to be filled in
   LinkValue value{};             ///< that the link has now, measured from the local matrix
   /// By number of the value: how far the body moves for one unit of it; 1 for angles.
   std::array<double, 3> metres_per_value{1, 1, 1};

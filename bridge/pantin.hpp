@@ -16,6 +16,7 @@
 #include <pantin/physics/constraints/cylindrical.hpp>
 #include <pantin/physics/constraints/driven.hpp>
 #include <pantin/physics/constraints/fixed.hpp>
+#include <pantin/physics/constraints/gear.hpp>
 #include <pantin/physics/constraints/joint.hpp>
 #include <pantin/physics/constraints/pivot.hpp>
 #include <pantin/physics/constraints/planar.hpp>

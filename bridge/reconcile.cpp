@@ -62,6 +62,7 @@ std::vector<Diagnostic> Bridge::Impl::settle(std::span<const NodeId> tops) {
     watch(*binding);
     remember_written(*binding);
   }
+  couple(notes);  // may move bodies from where their nodes were seen
   return notes;
 }
 

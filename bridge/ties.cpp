@@ -1,4 +1,5 @@
 // The one joint by which a bound node hangs on what is above it.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,14 @@ bool has_turns(LinkKind kind, const LinkValue& value) {
   }
 }
 
+void fill_in(const NodeBody& body, LinkKind kind, JointDefinition& joint) {
+  joint.damping.fill(body.joint_damping);
+  joint.strength = body.joint_strength;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(limit_count(kind)); ++i) {
+    joint.axes[i].friction = body.joint_friction;
+  }
+}
+
 }  // namespace
 
 JointTie Bridge::Impl::wanted_tie(const Binding& binding) const {
@@ -37,6 +46,7 @@ JointTie Bridge::Impl::wanted_tie(const Binding& binding) const {
   }
   const Link* link = scene.link(binding.node);
   if (binding.drive != Drive::Physics || link == nullptr || link->kind == LinkKind::Free) return {};
+  if (binding.is_broken) return {};
   return {JointTie::Kind::Link, binding.above == nullptr ? BodyId{} : binding.above->body, link->kind};
 }
 
@@ -44,6 +54,22 @@ void Bridge::Impl::untie(Binding& binding) {
   if (binding.joint && physics.contains(binding.joint)) physics.remove(binding.joint);
   binding.joint = {};
   binding.tie = {};
+}
+
+// Joints that physics has taken out: their nodes go on without, until they are handed over anew.
+void Bridge::Impl::forget_broken(std::span<const JointId> broken, std::vector<Diagnostic>& notes) {
+  for (const JointId joint : broken) {
+    const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                    [&](const auto& b) { return b.second->joint == joint; });
+    if (found == bindings.end()) continue;
+    Binding& binding = *found->second;
+    binding.joint = {};
+    binding.tie = {};
+    binding.is_broken = true;
+    notes.push_back(note(Severity::Warning, binding.node,
+                         "its joint bore more than its strength and broke; the node moves on without it",
+                         "take it back and hand it over again to join it anew"));
+  }
 }
 
 void Bridge::Impl::tie(Binding& binding, std::vector<Diagnostic>& notes) {
@@ -81,7 +107,8 @@ void Bridge::Impl::tie_by_link(Binding& binding, std::vector<Diagnostic>& notes)
   const auto body = node_bodies.find(binding.node);
   joint->definition.a = binding.tie.to;
   joint->definition.b = binding.body;
-  if (body != node_bodies.end()) joint->definition.damping.fill(body->second.joint_damping);
+  if (body != node_bodies.end()) fill_in(body->second, link.kind, joint->definition);
+  if (free_joints) joint->definition.axes = {};
   if (joint->definition.name.empty()) joint->definition.name = scene.path(binding.node);
   if (const std::optional<SettingsProblem> problem = problem_with(joint->definition)) {
     binding.tie = {};

@@ -7,17 +7,16 @@
 
 namespace pantin {
 
-void PhysicsManager::Impl::integrate(StepGroup& group, Dynamics& system, double h, std::span<double> q,
-                                     std::span<double> v) {
-  const double t = bodies.state.time;
-  if (!keeps_motion) return group.integrator->step(system, t, h, q, v);
+void PhysicsManager::Impl::integrate_part(StepGroup& group, Integrator& with, Dynamics& system, double t,
+                                          double h, std::span<double> q, std::span<double> v) {
+  const bool records = keeps_motion || guard.any();
   MotionRecord& motion = group.motion;
+  with.record_into(records ? &motion : nullptr);
+  if (!records) return with.step(system, t, h, q, v);
   start.assign(q.begin(), q.end());
   start.insert(start.end(), v.begin(), v.end());
   const std::size_t parts = motion.parts();
-  group.integrator->record_into(&motion);
-  group.integrator->step(system, t, h, q, v);
-  group.integrator->record_into(nullptr);
+  with.step(system, t, h, q, v);
   if (motion.parts() > parts) return;
   // The integrator has no interpolant: a cubic between the ends.
   const std::span<const double> q0 = std::span{start}.first(q.size()), v0 = std::span{start}.last(v.size());

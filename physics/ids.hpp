@@ -17,6 +17,7 @@ struct PhysicsId {
 
 using BodyId = PhysicsId<struct BodyTag>;  ///< as a joint's or force's end, null means the world
 using JointId = PhysicsId<struct JointTag>;
+using CouplingId = PhysicsId<struct CouplingTag>;
 using ForceId = PhysicsId<struct ForceTag>;
 using ParticleSystemId = PhysicsId<struct ParticleSystemTag>;
 using EmitterId = PhysicsId<struct EmitterTag>;

@@ -1,6 +1,7 @@
 // The equations of motion over one update: every group of islands by its integrator, one after the other, all
 // from the same state. Nothing is written back before all have arrived.
 #include <algorithm>
+#include <utility>
 
 #include <pantin/physics/world.hpp>
 
@@ -13,6 +14,8 @@ void PhysicsManager::Impl::begin_groups() {
     group.evaluations = group.accepted = group.refused = 0;
     group.shortest = std::numeric_limits<double>::infinity();
     group.loop_margin = 1;
+    group.dynamics->evaluations = 0;
+    group.dynamics->loop_margin = 1;
   }
 }
 
@@ -26,38 +29,44 @@ bool PhysicsManager::Impl::integrate(double h) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     StepGroup& group = groups[g];
     group.dynamics->begin();
+    const StepControl* control = nullptr;
     if (both != nullptr && group.has_particles) {
-      advance(g, *both, h, particles.coordinates_now(), particles.velocities_now());
+      control = advance(g, *both, h, particles.coordinates_now(), particles.velocities_now());
       particles.bodies_have_moved();
     } else {
-      advance(g, *group.dynamics, h, group.dynamics->coordinates_now(), group.dynamics->velocities_now());
+      control =
+          advance(g, *group.dynamics, h, group.dynamics->coordinates_now(), group.dynamics->velocities_now());
     }
-    if (group.dynamics->first_not_finite() >= 0 || group.dynamics->open_loop().joint >= 0) {
-      failed_group = g;
-      for (StepMemory& memory : bodies.state.memories) memory = {};
-      return false;
-    }
+    if (control != nullptr) group.note(*control);
+    if (has_failed(g)) return false;
     if (groups.size() > 1) group.dynamics->put_back();
   }
   for (StepGroup& group : groups) group.dynamics->write_back(bodies.state.time + h);
   return true;
 }
 
-void PhysicsManager::Impl::advance(std::size_t g, Dynamics& system, double h, std::span<double> q,
-                                   std::span<double> v) {
-  StepGroup& group = groups[g];
-  StepControl* control = group.integrator->control();
+bool PhysicsManager::Impl::has_failed(std::size_t g) {
+  const WorldDynamics& reached = *groups[g].dynamics;
+  if (reached.first_not_finite() < 0 && reached.open_loop().joint < 0) return false;
+  failed_group = g;
+  for (StepMemory& memory : bodies.state.memories) memory = {};
+  return true;
+}
+
+StepControl* PhysicsManager::Impl::advance(std::size_t g, Dynamics& system, double h, std::span<double> q,
+                                           std::span<double> v) {
+  StepControl* control = groups[g].integrator->control();
   if (control != nullptr) std::swap(control->memory, bodies.state.memories[g]);
-  group.dynamics->evaluations = 0;
-  group.dynamics->loop_margin = 1;
-  integrate(group, system, h, q, v);
-  group.evaluations += group.dynamics->evaluations;
-  group.loop_margin = std::min(group.loop_margin, group.dynamics->loop_margin);
-  if (control == nullptr) return;
-  std::swap(control->memory, bodies.state.memories[g]);
-  group.accepted += control->accepted;
-  group.refused += control->refused;
-  if (control->accepted > 0) group.shortest = std::min(group.shortest, control->shortest);
+  integrate(g, system, h, q, v);
+  if (control != nullptr) std::swap(control->memory, bodies.state.memories[g]);
+  return control;
+}
+
+void PhysicsManager::Impl::take_counts() {
+  for (StepGroup& group : groups) {
+    group.evaluations += std::exchange(group.dynamics->evaluations, 0);
+    group.loop_margin = std::min(group.loop_margin, std::exchange(group.dynamics->loop_margin, 1.0));
+  }
 }
 
 void PhysicsManager::Impl::add_counts(StepReport& report) const {

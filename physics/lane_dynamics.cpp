@@ -39,6 +39,16 @@ void take_stage(std::span<const double> all, std::size_t stages, std::size_t sta
 void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
   if (lane_.fits) return;
   lanes::fill_constants(layout_, bodies_, lane_.links, lane_.free);
+  for (std::size_t i = 0; kernel_.holds() && i < lane_.links.size(); ++i) {
+    lanes::LinkConstants& link = lane_.links[i];
+    link.holds = true;
+    with_model(layout_.links[i], [&](auto model) {
+      for (std::uint32_t j = 0; j < std::uint32_t{decltype(model)::kRates}; ++j) {
+        link.locked[j] = kernel_.is_locked(link.v + j);
+        link.effort[j] = kernel_.effort(link.v + j);
+      }
+    });
+  }
   const auto count = static_cast<std::size_t>(kernel.lanes);
   std::size_t given = 0, largest = 0;
   for (const lanes::LinkConstants& link : lane_.links) {
@@ -99,6 +109,9 @@ void WorldDynamics::derivatives(const Stages& stages) {
   const bool plain = also == nullptr && !bodies_.state.loaded;
   const std::optional<Vector3> uniform = plain ? laws().uniform_acceleration() : std::nullopt;
   if (uniform) free_forces(stages, *uniform);
+  loads_.write_efforts(layout_, stages.at,
+                       stages.q.data() + (stages.q.size() / count - layout_.coordinates) * count,
+                       stages.v.data() + (stages.v.size() / count - layout_.rates) * count, efforts_.data());
   for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(kernel->lanes)) {
     lane_group(stages, *kernel, first, uniform);
   }
@@ -147,6 +160,7 @@ void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel
                    .stages = count,
                    .first = first,
                    .motions = lane_.motions.data(),
+                   .efforts = efforts_.data(),
                    .work = aligned(lane_.work)};
   if (uniform) std::copy_n(uniform->data(), 3, task.gravity);
   if (!uniform) {

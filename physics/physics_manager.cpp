@@ -118,7 +118,10 @@ void PhysicsManager::set_velocity(BodyId id, const Vector3& v_WBcm, const Vector
   impl_->constraints.prepare(bodies);
   bodies.place(i, bodies.X_WB(i), v_WBcm, w_WB);
   const std::int32_t link = impl_->constraints.layout().link_of_body[i];
-  if (link >= 0) bodies.state.edited[impl_->constraints.layout().tree_of(link)] = 1;
+  if (link < 0) return;
+  const std::size_t tree = impl_->constraints.layout().tree_of(link);
+  impl_->constraints.measure_rotors(bodies, impl_->constraints.layout().trees[tree]);
+  bodies.state.edited[tree] = 1;
 }
 
 void PhysicsManager::apply_force(BodyId id, const Vector3& f_W, const Vector3& p_WQ) {
@@ -223,7 +226,8 @@ JointNumbers PhysicsManager::joint_rate(JointId id) const {
 void PhysicsManager::set_joint_value(JointId id, const JointNumbers& value) {
   PANTIN_EXPECTS(try_joint_value(id, value),
                  "joint '" + joint(id).name +
-                     "' cannot take this value with its loop closed; choose one within its reach");
+                     "' cannot take this value with its loop closed and its couplings held; choose one "
+                     "within its reach");
 }
 
 bool PhysicsManager::try_joint_value(JointId id, const JointNumbers& value) {
@@ -246,6 +250,12 @@ DeflectorManager& PhysicsManager::deflectors() noexcept { return impl_->deflecto
 const DeflectorManager& PhysicsManager::deflectors() const noexcept { return impl_->deflectors; }
 
 const Integrator& PhysicsManager::integrator() const noexcept { return *impl_->integrator; }
+
+void PhysicsManager::watch_stability(bool watch) {
+  impl_->watches_stability = watch;
+  if (watch) return;
+  for (StabilityMemory& memory : impl_->bodies.state.stabilities) memory = {};
+}
 
 double PhysicsManager::time() const noexcept { return impl_->bodies.state.time; }
 

@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include <pantin/physics/constraints/gear.hpp>
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/motor.hpp>
 #include <pantin/physics/deflectors/deflector_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/ids.hpp>
@@ -18,6 +20,7 @@
 #include <pantin/physics/rigid_body.hpp>
 #include <pantin/physics/state.hpp>
 #include <pantin/physics/step_report.hpp>
+#include <pantin/physics/stops/joint_event.hpp>
 
 namespace pantin {
 
@@ -57,7 +60,8 @@ class PhysicsManager {
   /// the rest follows; where it cannot, the next step says so.
   void set_pose(BodyId id, const Pose& X_WB);
   /// Of a simulated body. Velocities that joints do not allow are projected on them at the next step, momenta
-  /// kept as far as the joints let them.
+  /// kept as far as the joints let them. Rotors on the joints of the body turn along; in impulses, and where
+  /// a driven motion jumps, they keep their momentum.
   void set_velocity(BodyId id, const Vector3& v_WBcm, const Vector3& w_WB);
 
   /// Adds to the accumulators; they act on every step until clear_accumulators.
@@ -77,7 +81,7 @@ class PhysicsManager {
     return add_joint(define(std::move(settings)));
   }
   JointId add_joint(JointDefinition joint);
-  void remove(JointId id);
+  void remove(JointId id);  ///< its couplings go first
   [[nodiscard]] bool contains(JointId id) const noexcept;
   [[nodiscard]] std::vector<JointId> joints() const;
   [[nodiscard]] const JointDefinition& joint(JointId id) const;
@@ -87,7 +91,8 @@ class PhysicsManager {
   /// fewest rows is cut and held by multipliers, also where loops are redundant or pass singular positions.
   [[nodiscard]] bool closes_loop(BodyId a, BodyId b) const;
   /// Joints that move nothing that resists (massless ends), floating bodies without mass, and joints whose
-  /// loops cannot be closed from where the bodies stand; call before stepping.
+  /// loops cannot be closed, or whose coupling cannot be met, from where the bodies stand; call before
+  /// stepping.
   [[nodiscard]] std::vector<std::pair<JointId, SettingsProblem>> singular_joints() const;
 
   /// Where B stands against A: pivot angle with its turns [rad], slider [m], ball (w, x, y, z); none for
@@ -95,8 +100,8 @@ class PhysicsManager {
   [[nodiscard]] JointNumbers joint_value(JointId id) const;
   /// pivot [rad/s], slider [m/s], ball: angular velocity of B in A in axes of B's joint frame [rad/s].
   [[nodiscard]] JointNumbers joint_rate(JointId id) const;
-  /// Moves B and all it carries; in a loop the rest follows, by the shortest way that its inertia knows. A
-  /// value or rate that the loop does not allow breaks the contract.
+  /// Moves B and all it carries; in a loop, and where joints are coupled, the rest follows, by the shortest
+  /// way that its inertia knows. A value or rate that these do not allow breaks the contract.
   void set_joint_value(JointId id, const JointNumbers& value);
   /// The same for values that come from outside: where the loop does not allow it, nothing changes.
   [[nodiscard]] bool try_joint_value(JointId id, const JointNumbers& value);
@@ -104,8 +109,44 @@ class PhysicsManager {
   /// Wrench that A exerts on B through the joint, at J, in W, at the present state: evaluated on demand.
   /// Where loops are redundant, the least that does it.
   [[nodiscard]] Wrench reaction(JointId id) const;
-  /// Greatest distance [m] and angle [rad] by which body poses miss their joints.
+  // Motors (joint_motors.cpp). They are settings, as force laws are, and no part of State.
+  /// From now on a motor acts along a number of a joint; in the place of one that does. Targets may be
+  /// changed at any time: nothing is laid out anew. The joint's kind must have that number: not ball, fixed,
+  /// driven.
+  void set_motor(JointId id, const MotorSettings& motor, int axis = 0);
+  void clear_motor(JointId id, int axis = 0);
+  [[nodiscard]] std::optional<MotorSettings> motor(JointId id, int axis = 0) const;
+  /// By which spring, damping and motor act on B along each number, all together, at the present state [N m
+  /// or N]; of a ball by axis of B's joint frame. Not what the joint itself holds: that is its reaction.
+  [[nodiscard]] JointNumbers joint_effort(JointId id) const;
+
+
+  // Stops and dry friction
+  /// How one of a joint's numbers moves, by what the last step decided: Free before the first step.
+  [[nodiscard]] AxisMode axis_mode(JointId id, int axis = 0) const;
+  /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or
+  /// N], positive where it pushes the number up: evaluated on demand.
+  [[nodiscard]] double axis_effort(JointId id, int axis = 0) const;
+  /// Numbers of joints whose stops and friction do not act: in a loop in which all joints have them, those of
+  /// the joint that is cut; the distances of a planar joint whose B is nearer to the ground than its A.
+  [[nodiscard]] std::vector<std::pair<JointId, int>> unguarded_axes() const;
+  /// Greatest distance [m] and angle [rad] by which body poses miss their joints, and joints their couplings.
   [[nodiscard]] JointDrift joint_drift() const;
+
+  // Couplings of joints (physics_couplings.cpp)
+  /// Holds while the coupled joints both move something simulated. Joints that stand off it are brought
+  /// together at once, by the shortest way that inertia knows; of a pivot b that nothing else is coupled to,
+  /// whole turns are counted anew instead of made. Where that cannot be, singular_joints and the next step
+  /// say so. Settings must be without problem_with(settings, joint(a), joint(b)).
+  CouplingId add(GearSettings settings);
+  void remove(CouplingId id);
+  [[nodiscard]] bool contains(CouplingId id) const noexcept;
+  [[nodiscard]] const std::vector<CouplingId>& couplings() const noexcept;  ///< in the order of adding
+  [[nodiscard]] const GearSettings& coupling(CouplingId id) const;
+  /// Generalised force by which it acts on joint b at the present state [N m] or [N], evaluated on demand; on
+  /// joint a it acts with -ratio times that. 0 while it does not hold. Where couplings and loops are
+  /// redundant, the least that does it.
+  [[nodiscard]] double coupling_effort(CouplingId id) const;
 
   [[nodiscard]] ForceManager& forces() noexcept;
   [[nodiscard]] const ForceManager& forces() const noexcept;
@@ -129,6 +170,12 @@ class PhysicsManager {
   /// What is integrated together, by what, why so, and at what cost in the last step.
   [[nodiscard]] std::vector<IslandGroup> islands();
 
+  /// Whether steps of integrators that take the steps they are asked for are watched: where something decays
+  /// or swings faster than the integrator bears (Integrator::stability_radius), the step is cut into parts,
+  /// or, where these were more than 32, taken by the implicit midpoint rule; StepReport::fast says so. Costs
+  /// some evaluations every 32 steps. Off unless set.
+  void watch_stability(bool watch);
+
   // Time
   [[nodiscard]] double time() const noexcept;  ///< [s]
   void set_time(double time);
@@ -136,6 +183,8 @@ class PhysicsManager {
   [[nodiscard]] StepReport step(double h);
   /// Bodies whose pose the last step changed, in the order of `bodies()`.
   [[nodiscard]] std::span<const BodyId> moved() const noexcept;
+  /// What happened to joints in the last step, in the order of time.
+  [[nodiscard]] std::span<const JointEvent> joint_events() const noexcept;
   [[nodiscard]] Energy energy() const;
 
   // Dense output

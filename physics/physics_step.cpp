@@ -2,7 +2,8 @@
 //
 //   1  time step: cut where a driven motion breaks
 //   2  forces, 4 constraints: evaluated inside the derivative, at every stage of the integrator
-//   5  equations of motion by the chosen integrator
+//   5  equations of motion, every group of islands by its integrator (integrate_islands.cpp); where stops or
+//      dry friction act, from event to event (guarded_step.cpp)
 //   7  particles against deflectors, at the end of every part of a step that is cut
 //   6  impulses, those that particles gave among them, velocity projection, derived values
 //   8  moved bodies, energies, report
@@ -34,12 +35,16 @@ StepReport PhysicsManager::step(double h) {
   const double end = state.time + (h + state.time_compensation);
   const double slack = kBreakSlack * (std::abs(end) + h);
   const bool cut = world.next_break(state.time) < end - slack;
-  const bool keeps = cut || world.particles.size() > 0;
-  if (keeps) world.remember(cut);
+  world.guard.begin_step();
+  world.crowded = 0;
+  const bool in_parts = cut || world.guard.any();
+  const bool keeps = in_parts || world.particles.size() > 0;
+  if (keeps) world.remember(in_parts);
   world.particles.begin_step();
 
   StepReport report;
   world.begin_groups();
+  world.fast = {};
   world.motion_topology = state.topology;
   for (bool done = false; !done; ++report.updates) {
     const double stop = world.next_break(state.time);
@@ -48,7 +53,7 @@ StepReport PhysicsManager::step(double h) {
     if (state.at_break) world.pass_break();
     if (!world.update(part)) {
       report = world.failure();
-      if (keeps) world.go_back(cut);
+      if (keeps) world.go_back(in_parts);
       for (StepGroup& group : world.groups) group.motion.clear();
       return report;
     }
@@ -63,9 +68,17 @@ StepReport PhysicsManager::step(double h) {
   }
   world.apply_impulses();
   world.list_moved();
+  world.find_overloaded(*this, report.broken);
+  for (const JointId joint : report.broken) {
+    world.guard.events.push_back({.time = state.time, .joint = joint, .kind = JointEventKind::Broken});
+    remove(joint);
+  }
   report.time = state.time;
   world.add_counts(report);
+  report.fast = world.fast;
   report.moved = world.moved.size();
+  report.joint_events = static_cast<int>(world.guard.events.size());
+  report.crowded = world.crowded;
   report.energy = world.energy();
   report.particles = world.particles.finish_step();
   return report;
@@ -95,7 +108,10 @@ double PhysicsManager::Impl::next_break(double t) const {
   for (const TreeLink& link : constraints.layout().links) {
     if (link.driver != nullptr) next = std::min(next, link.driver->next_break(t));
   }
-  return next;
+  for (const Closure& closure : constraints.layout().closures) {
+    if (closure.driver != nullptr) next = std::min(next, closure.driver->next_break(t));
+  }
+  return std::min(next, constraints.loads().next_break(t));
 }
 
 void PhysicsManager::Impl::pass_break() {
@@ -119,7 +135,9 @@ void PhysicsManager::Impl::pass_break() {
 
 bool PhysicsManager::Impl::update(double h) {
   const double t = bodies.state.time;
-  return integrate(h) && particles.update(t, h, *integrator);
+  const bool good = guard.any() ? guarded_update(h) : integrate(h) && particles.update(t, h, *integrator);
+  take_counts();
+  return good;
 }
 
 void PhysicsManager::Impl::apply_impulses() {
@@ -144,6 +162,7 @@ void PhysicsManager::Impl::apply_impulses() {
   }
   state.struck = false;
   constraints.prepare(bodies);
+  if (guard.any()) strike_now();
 }
 
 void PhysicsManager::Impl::list_moved() {
@@ -201,6 +220,9 @@ Energy PhysicsManager::Impl::energy() const {
     energy.kinetic += 0.5 * (s.linear_momentum.dot(k.v_WBcm) + s.angular_momentum.dot(k.w_WB));
   }
   energy.potential = forces.potential_energy(bodies.now());
+  const Energy joints = constraints.energy(bodies);
+  energy.kinetic += joints.kinetic;
+  energy.potential += joints.potential;
   return energy;
 }
 

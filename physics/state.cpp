@@ -26,7 +26,7 @@ bool operator==(const State& a, const State& b) {
     }
   }
   return a.coordinates == b.coordinates && a.rates == b.rates && a.cut_coordinates == b.cut_coordinates &&
-         a.particles == b.particles;
+         a.particles == b.particles && a.axis_modes == b.axis_modes;
 }
 
 std::uint64_t hash(const State& state) {

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/integrators/stability_watch.hpp>
 #include <pantin/physics/particles/particle_state.hpp>
 #include <pantin/physics/rigid_body.hpp>
+#include <pantin/physics/stops/axis_mode.hpp>
 
 namespace pantin {
 
@@ -23,9 +25,10 @@ struct State {
   std::uint64_t topology{0};    ///< which set of bodies, joints and kinds it fits
   double time{0};               ///< [s]
   double time_compensation{0};  ///< what rounding has kept back from `time` [s]
-  std::uint64_t groups{0};      ///< what `memories` belong to: which islands are stepped together, by what
+  std::uint64_t groups{0};      ///< what the next two belong to: which islands are stepped together, by what
   std::vector<StepMemory> memories{};  ///< of integrators that choose their own steps, by group of islands
-  bool at_break{false};         ///< the last step ended where a driven motion breaks
+  std::vector<StabilityMemory> stabilities{};  ///< where steps are watched, by group
+  bool at_break{false};                        ///< the last step ended where a driven motion breaks
   std::vector<BodyState> bodies{};
   std::vector<BodyKinematics>
       kinematics{};                   ///< derived, kept so that a restored manager continues bit for bit
@@ -37,6 +40,7 @@ struct State {
   std::vector<double> rates{};
   std::vector<double> cut_coordinates{};  ///< of joints that are cut to make trees of loops; 7 numbers each
   std::vector<std::uint8_t> edited{};     ///< per tree: velocities were set from outside since the last step
+  std::vector<AxisMode> axis_modes{};     ///< of numbers with stops or friction, in the order of the layout
   std::vector<ParticleSystemState> particles{};
 };
 

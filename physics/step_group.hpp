@@ -1,6 +1,7 @@
 #pragma once
 // One or several islands that an integrator advances together: what it needs, and what it has to say. Private
 // to physics.
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -34,15 +35,22 @@ struct StepGroup {
   WorldDynamics* dynamics{nullptr};
 
   // Of the last step.
-  MotionRecord motion{};  ///< where it is kept
+  MotionRecord motion{};  ///< where it is kept, or events are looked for
   int evaluations{0}, accepted{0}, refused{0};
   double shortest{std::numeric_limits<double>::infinity()};  ///< accepted [s]
   double loop_margin{1};
+  /// Adds the steps that its integrator has taken.
+  void note(const StepControl& control) {
+    accepted += control.accepted;
+    refused += control.refused;
+    if (control.accepted > 0) shortest = std::min(shortest, control.shortest);
+  }
 };
 
 /// What the groups were made for; they are made anew when it has changed.
 struct GroupsKey {
   std::uint64_t layout{0}, forces{0}, integrators{0}, integrator_of_particles{0};
+  bool is_guarded{false};  ///< joints have stops or friction
   std::vector<ParticleSystemId> systems{};
 };
 

@@ -6,7 +6,8 @@
 //     chooses its own                            each by itself, but for free bodies that no law names, which
 //                                                go together: their steps are alike, and they are many
 //
-// Where bodies of one island ask for different integrators, the one that was set last wins.
+// Events at stops and in dry friction are met by all bodies: where there are such joints, all islands go
+// together. Where bodies of one group ask for different integrators, the one that was set last wins.
 #include <algorithm>
 #include <cmath>
 
@@ -30,20 +31,32 @@ std::uint64_t stamp_of(const std::vector<StepGroup>& groups, const std::vector<B
   return h;
 }
 
+Island united(const std::vector<Island>& islands) {
+  Island all;
+  for (const Island& island : islands) {
+    all.bodies.insert(all.bodies.end(), island.bodies.begin(), island.bodies.end());
+    all.has_particles = all.has_particles || island.has_particles;
+  }
+  std::sort(all.bodies.begin(), all.bodies.end());
+  return all;
+}
+
 }  // namespace
 
 void PhysicsManager::Impl::fit_groups() {
   const std::vector<ParticleSystemState>& systems = bodies.state.particles;
-  const bool same_systems = std::equal(systems.begin(), systems.end(), groups_key.systems.begin(),
-                                       groups_key.systems.end(),
-                                       [](const auto& state, ParticleSystemId id) { return state.id == id; });
+  const bool same_systems =
+      std::equal(systems.begin(), systems.end(), groups_key.systems.begin(), groups_key.systems.end(),
+                 [](const auto& state, ParticleSystemId id) { return state.id == id; });
   if (groups.empty() || !same_systems || groups_key.layout != constraints.layout_revision() ||
       groups_key.forces != forces.revision() || groups_key.integrators != integrator_revision ||
-      groups_key.integrator_of_particles != particles.integrator_revision()) {
+      groups_key.integrator_of_particles != particles.integrator_revision() ||
+      groups_key.is_guarded != guard.any()) {
     groups_key = {.layout = constraints.layout_revision(),
                   .forces = forces.revision(),
                   .integrators = integrator_revision,
-                  .integrator_of_particles = particles.integrator_revision()};
+                  .integrator_of_particles = particles.integrator_revision(),
+                  .is_guarded = guard.any()};
     for (const ParticleSystemState& system : systems) groups_key.systems.push_back(system.id);
     make_groups();
   }
@@ -55,6 +68,7 @@ void PhysicsManager::Impl::fit_groups() {
     if (memory.next > 0) next = next > 0 ? std::min(next, memory.next) : memory.next;
   }
   state.memories.assign(groups.size(), StepMemory{.next = next});
+  state.stabilities.assign(groups.size(), {});
   state.groups = groups_stamp;
 }
 
@@ -68,7 +82,8 @@ const BodyIntegrator* PhysicsManager::Impl::integrator_of(const Island& island) 
 }
 
 void PhysicsManager::Impl::make_groups() {
-  const std::vector<Island> islands = find_islands(bodies, constraints.layout(), forces);
+  std::vector<Island> islands = find_islands(bodies, constraints.layout(), forces);
+  if (guard.any()) islands = {united(islands)};
   const auto others =
       std::count_if(islands.begin(), islands.end(), [](const Island& island) { return !island.is_plain; });
   const bool chooses = integrator->control() != nullptr;
@@ -106,6 +121,8 @@ void PhysicsManager::Impl::make_groups() {
   }
   if (groups.empty()) groups.push_back({.integrator = integrator.get(), .reason = "nothing is simulated"});
   for (StepGroup& group : groups) std::sort(group.bodies.begin(), group.bodies.end());
+  if (guard.any())
+    groups.front().reason = "joints have stops or friction, whose events all bodies meet together";
   if (groups.size() == 1) groups.front().dynamics = &dynamics;
   else lay_out_groups();
   groups_stamp = stamp_of(groups, bodies.ids);
@@ -128,6 +145,7 @@ void PhysicsManager::Impl::lay_out_groups() {
     std::sort(trees.begin(), trees.end());
     trees.erase(std::unique(trees.begin(), trees.end()), trees.end());
     group.part = part_of(layout, free, trees);
+    constraints.list_loads(group.part->layout, group.part->loads);
     group.of_part = std::make_unique<WorldDynamics>(bodies, constraints, forces, room, *group.part);
     group.dynamics = group.of_part.get();
   }
@@ -174,6 +192,7 @@ bool PhysicsManager::holds_tolerance() const noexcept {
 std::vector<IslandGroup> PhysicsManager::islands() {
   Impl& world = *impl_;
   world.constraints.prepare(world.bodies);
+  world.guard.fit();
   world.fit_groups();
   std::vector<IslandGroup> list;
   for (const StepGroup& group : world.groups) {

@@ -3,14 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <pantin/physics/ids.hpp>
 
 namespace pantin {
 
 struct Energy {
-  double kinetic{0};    ///< of all simulated bodies [J]
-  double potential{0};  ///< of the laws that have one [J]
+  double kinetic{0};    ///< of all simulated bodies, and of rotors on their joints [J]
+  double potential{0};  ///< of the laws that have one, and of springs on joints [J]
   [[nodiscard]] double total() const { return kinetic + potential; }
 };
 
@@ -40,7 +41,17 @@ struct ParticleReport {
 enum class StepStatus {
   Done,
   NotFinite,  ///< a number overflowed or became NaN; the state before the step is kept
-  LoopOpen,   ///< a loop of joints cannot be closed; the state before the step is kept
+  LoopOpen,   ///< a loop of joints cannot be closed, or a coupling not be met; the state before the step is
+              ///< kept
+};
+
+/// Motion that decays or swings faster than the integrator bears at the step asked for.
+struct FastMotion {
+  double rate{0};          ///< [1/s]; 0 = nothing was too fast, or steps are not watched
+  int parts{1};            ///< into which updates were cut for it
+  bool implicitly{false};  ///< too many: taken whole, by the implicit midpoint rule
+  BodyId body{};    ///< what takes the greatest part in it: a body without joints, or the root of a tree
+  JointId joint{};  ///< or a joint; both null where particles do
 };
 
 struct StepReport {
@@ -54,8 +65,14 @@ struct StepReport {
   /// How near closed loops came to a singular position, as where bars are in line, at any evaluation: about
   /// the square of the angle that is left; 1 = far away, or no loops.
   double loop_margin{1};
+  FastMotion fast{};
   std::size_t moved{0};  ///< bodies with a changed pose
   Energy energy{};       ///< of bodies, at the end
+  int joint_events{0};   ///< PhysicsManager::joint_events says which
+  /// Parts of the step in which events at stops and in dry friction crowded, so that its rest was advanced by
+  /// short steps of first order (guarded_step.cpp).
+  int crowded{0};
+  std::vector<JointId> broken{};  ///< joints that bore more than their strength and are gone
   ParticleReport particles{};
   BodyId body{};          ///< culprit of a failed step, if it is one body
   ParticleId particle{};  ///< the same, if it is a particle

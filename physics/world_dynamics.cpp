@@ -102,19 +102,22 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
     for (int k = 0; k < 3; ++k) out[k] = wrenches_[i].force[k], out[3 + k] = wrenches_[i].torque[k];
     out += kFreeVelocities;
   }
+  loads_.write_efforts(layout_, {&at, 1}, q.data() + (q.size() - layout_.coordinates),
+                       v.data() + (v.size() - layout_.rates), efforts_.data());
   for (const Tree& tree : layout_.trees) {
     kernel_.load(layout_, tree);
     for (std::uint32_t l = tree.links_begin; l < tree.links_end; ++l) {
       for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
         const std::uint32_t i = layout_.members[m].body;
         kernel_.add_wrench(static_cast<std::int32_t>(l), wrenches_[i].force, wrenches_[i].torque,
-                          stage_[i].p_WBcm);
+                           stage_[i].p_WBcm);
       }
     }
-    if (tree.has_closures()) ClosureSolver::add_damping(layout_, tree, kernel_, grounds_, at);
-    kernel_.eliminate(layout_, tree, v.last(layout_.rates));
+    if (loads_.on_closures()) loads_.add_to_cut_joints(layout_, tree, kernel_, grounds_, at, cut_near_);
+    kernel_.eliminate(layout_, tree, v.last(layout_.rates), efforts_);
     kernel_.substitute(layout_, tree, v_dot.last(layout_.rates));
-    if (tree.has_closures()) evaluate_loops(at, tree, v_dot.last(layout_.rates));
+    if (!tree.has_closures()) continue;
+    evaluate_loops(at, tree, q.last(layout_.coordinates), v.last(layout_.rates), v_dot.last(layout_.rates));
   }
 }
 
@@ -160,29 +163,6 @@ void WorldDynamics::settle(Instant at, std::span<double> q_all, std::span<double
 
 bool WorldDynamics::acceleration_depends_on_velocity() const {
   return !layout_.links.empty() || laws().depends_on_velocity();
-}
-
-void WorldDynamics::accelerations_now(std::vector<Wrench>& external, std::vector<Vector3>& alpha,
-                                      std::vector<Vector3>& a_cm) {
-  room_.begin(bodies_, constraints_);
-  begin();
-  std::vector<double> v_dot(v_.size());
-  evaluate({bodies_.state.time, Side::After}, coordinates_now(), velocities_now(), {}, v_dot);
-  external = wrenches_;
-  alpha.assign(bodies_.size(), Vector3::Zero());
-  a_cm.assign(bodies_.size(), Vector3::Zero());
-  const auto eigen = [](const kernel::Vec3<double>& x) { return Vector3{x.x, x.y, x.z}; };
-  for (std::size_t l = 0; l < layout_.links.size(); ++l) {
-    const LinkWork& link = kernel_.link(static_cast<std::int32_t>(l));
-    const Vector3 al = eigen(link.al + link.dal), a = eigen(link.a + link.da), w = eigen(link.w),
-                  p = eigen(link.p);
-    for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
-      const std::uint32_t i = layout_.members[m].body;
-      const Vector3 c = stage_[i].p_WBcm - p;
-      alpha[i] = al;
-      a_cm[i] = a + al.cross(c) + w.cross(w.cross(c));
-    }
-  }
 }
 
 }  // namespace pantin

@@ -47,7 +47,8 @@ class WorldDynamics final : public Dynamics {
         room_{room},
         layout_{constraints.layout()},
         kernel_{constraints.kernel()},
-        loops_{constraints.loops()} {}
+        loops_{constraints.loops()},
+        loads_{constraints.loads()} {}
   /// Of a part that nothing couples with what is outside it. The others stand in the room as they were left.
   WorldDynamics(BodyStore& bodies, ConstraintManager& constraints, ForceManager& forces, BodyRoom& room,
                 WorldPart& part)
@@ -58,12 +59,15 @@ class WorldDynamics final : public Dynamics {
         layout_{part.layout},
         kernel_{part.kernel},
         loops_{part.loops},
+        loads_{part.loads},
         part_{&part} {}
 
   /// Fits the work space to the bodies and trees of now; the room must have begun.
   void begin();
   /// Leaves the room as it was when it began, the state not yet being written back.
   void put_back();
+  /// To be called when what the kernel holds (Articulated::hold) has changed since begin.
+  void holds_have_changed() noexcept { lane_.fits = false; }
   /// Coordinates and velocities of the state reached.
   [[nodiscard]] std::span<double> coordinates_now();
   [[nodiscard]] std::span<double> velocities_now();
@@ -82,6 +86,12 @@ class WorldDynamics final : public Dynamics {
                          std::vector<Vector3>& a_cm);
   /// Puts the bodies in the room where q and v are, and those whose motion is given where that is.
   void place(Instant at, std::span<const double> q, std::span<const double> v);
+  /// Whose velocity stands at this place of v: the position of a body without joints or, for a tree, of a
+  /// joint (of a floating root: of its first body).
+  struct Mover {
+    std::int32_t body{-1}, joint{-1};
+  };
+  [[nodiscard]] Mover mover_of(std::size_t velocity) const;
   /// Of a closure, as accelerations_now has left it.
   [[nodiscard]] CutWrench cut_wrench(std::uint32_t closure) const;
 
@@ -95,7 +105,7 @@ class WorldDynamics final : public Dynamics {
                   std::span<double> v_dot) override;
   void settle(Instant at, std::span<double> q, std::span<double> v) override;
   [[nodiscard]] bool has_constraints() const override { return !layout_.closures.empty(); }
-  /// A loop that the state settled last leaves open.
+  /// A loop or coupling that the state settled last leaves open.
   [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
@@ -119,13 +129,20 @@ class WorldDynamics final : public Dynamics {
   void evaluate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                 std::span<double> v_dot);
   void gather_wrenches(Instant at);
-  void evaluate_loops(Instant at, const Tree& tree, std::span<double> v_dot);
+  void evaluate_loops(Instant at, const Tree& tree, std::span<const double> q, std::span<const double> v,
+                      std::span<double> v_dot);
   void settle_loops(Instant at, std::span<double> q, std::span<double> v);
   /// Whether nothing of a tree moves, its driven parts included (they jump only at breaks, where trees are
   /// rewritten).
   [[nodiscard]] bool is_at_rest(const Tree& whole, Instant at);
   /// Tree k as it stands in the layout, and the state, of everything.
   [[nodiscard]] const Tree& tree_of_whole(std::size_t k) const;
+  /// Where the numbers of the cut joints of tree k begin, here and in the state, and how many they are.
+  struct CutNumbers {
+    std::ptrdiff_t here{0}, whole{0}, count{0};
+  };
+  [[nodiscard]] CutNumbers cut_numbers(std::size_t k) const;
+  void begin_cut_joints();
   [[nodiscard]] LawList laws() const {
     return LawList{part_ == nullptr ? forces_.laws() : std::span<const ForceLaw* const>{part_->laws}};
   }
@@ -135,9 +152,7 @@ class WorldDynamics final : public Dynamics {
   [[nodiscard]] double tree_error(std::span<const double> q, std::span<const double> q_error,
                                   std::span<const double> v_error, double h);
   void count_link(std::uint32_t link, double& greatest) const;
-  [[nodiscard]] const std::vector<std::uint32_t>& free_bodies() const {
-    return layout_.free_bodies;
-  }
+  [[nodiscard]] const std::vector<std::uint32_t>& free_bodies() const { return layout_.free_bodies; }
 
   BodyStore& bodies_;
   ConstraintManager& constraints_;
@@ -149,14 +164,17 @@ class WorldDynamics final : public Dynamics {
   const TreeLayout& layout_;
   Articulated& kernel_;
   LoopCloser& loops_;
+  const JointLoads& loads_;
   WorldPart* part_{nullptr};  ///< null = everything
   std::vector<double> q_{}, v_{};
   std::span<const double> trees_before_{}, rates_before_{};  ///< of all trees here, at the begin
   std::vector<double> part_q_{}, part_v_{};                  ///< the same, of a part
+  std::vector<double> efforts_{};   ///< on rates, of all stages; empty where joints bear no loads
+  std::vector<double> cut_near_{};  ///< numbers of cut joints where the last part of the update ended
   struct LinkMotion {
     kernel::Vec3<double> v{}, w{};
   };
-  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error and weights
+  std::vector<double> error_rates_{}, reach_{};  // work space of motion_error, weights, accelerations_now
   std::vector<LinkMotion> base_{};
 
   // Stages in lanes (lane_dynamics.cpp).

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
@@ -34,7 +35,9 @@ void WorldDynamics::begin() {
   q_.resize(kFreeCoordinates * layout_.free_bodies.size() + layout_.coordinates);
   v_.resize(kFreeVelocities * layout_.free_bodies.size() + layout_.rates);
   open_loop_ = {};
+  efforts_.resize(loads_.on_links() ? kMostNodes * layout_.rates : 0);
   lane_.fits = false;
+  begin_cut_joints();
   trees_before_ = bodies_.state.coordinates;
   rates_before_ = bodies_.state.rates;
   if (part_ == nullptr) return;
@@ -49,6 +52,23 @@ void WorldDynamics::begin() {
   }
   trees_before_ = part_q_;
   rates_before_ = part_v_;
+}
+
+void WorldDynamics::begin_cut_joints() {
+  cut_near_.resize(kMostCoordinates * layout_.closures.size());
+  for (std::size_t k = 0; k < layout_.trees.size(); ++k) {
+    const auto [here, whole, count] = cut_numbers(k);
+    std::copy_n(bodies_.state.cut_coordinates.begin() + whole, count, cut_near_.begin() + here);
+  }
+}
+
+WorldDynamics::CutNumbers WorldDynamics::cut_numbers(std::size_t k) const {
+  const Tree& tree = layout_.trees[k];
+  const auto place = [](std::uint32_t closure) {
+    return static_cast<std::ptrdiff_t>(std::size_t{kMostCoordinates} * closure);
+  };
+  return {place(tree.closures_begin), place(tree_of_whole(k).closures_begin),
+          place(tree.closures_end - tree.closures_begin)};
 }
 
 const Tree& WorldDynamics::tree_of_whole(std::size_t k) const {
@@ -136,6 +156,8 @@ void WorldDynamics::write_back(double t) {
     const bool same = std::equal(q + tree.q_begin, q + tree.q_end, to_q) &&
                       std::equal(v + tree.v_begin, v + tree.v_end, to_v);
     if (same && (!whole.follows_driver || is_at_rest(whole, end))) continue;
+    const auto [cut_here, cut_whole, count] = cut_numbers(k);
+    std::copy_n(cut_near_.begin() + cut_here, count, state.cut_coordinates.begin() + cut_whole);
     std::copy(q + tree.q_begin, q + tree.q_end, to_q);
     std::copy(v + tree.v_begin, v + tree.v_end, to_v);
     constraints_.commit(bodies_, whole, grounds_, end);

@@ -57,6 +57,7 @@ class Extraction {
   void add_closure(Closure closure) {
     shift(closure.a.link);
     shift(closure.b.link);
+    for (CoupledNumber& number : closure.coupled) shift(number.link);
     const std::uint32_t begin = size(part_.paths);
     for (std::uint32_t p = closure.path_begin; p < closure.path_end; ++p) {
       PathLink step = whole_.paths[p];
@@ -64,8 +65,9 @@ class Extraction {
       part_.paths.push_back(step);
     }
     closure.path_begin = begin, closure.path_end = size(part_.paths);
-    part_.closure_of_joint[static_cast<std::size_t>(closure.joint)] =
-        static_cast<std::int32_t>(part_.closures.size());
+    const auto here = static_cast<std::int32_t>(part_.closures.size());
+    if (closure.coupling >= 0) part_.closure_of_coupling[static_cast<std::size_t>(closure.coupling)] = here;
+    else part_.closure_of_joint[static_cast<std::size_t>(closure.joint)] = here;
     part_.closures.push_back(closure);
   }
 
@@ -85,6 +87,8 @@ std::unique_ptr<WorldPart> part_of(const TreeLayout& whole, std::span<const std:
   layout.link_of_body.assign(whole.link_of_body.size(), -1);
   layout.link_of_joint.assign(whole.link_of_joint.size(), -1);
   layout.closure_of_joint.assign(whole.closure_of_joint.size(), -1);
+  layout.closure_of_coupling.assign(whole.closure_of_coupling.size(), -1);
+  layout.cut_coupling = whole.cut_coupling;
   Extraction extraction{whole, layout};
   for (const std::uint32_t tree : trees) extraction.add(whole.trees[tree]);
   part->kernel.resize(layout);

@@ -65,6 +65,8 @@ void add_time(CLI::App& app, RunOptions& options) {
               "Error that dormand-prince, gauss8, gauss16 or radau may make a second [m] and [rad], "
               "default 1e-9")
       ->type_name("TOL");
+  app.add_flag("--unwatched", options.unwatched,
+               "take every step as asked for, also where the integrator does not bear it");
   app.add_flag("--adaptive", options.adaptive,
                "Go from sample to sample in one update, which such an integrator cuts as the motion needs; "
                "--step then counts for scheduling alone");
@@ -90,6 +92,8 @@ void add_world(CLI::App& app, RunOptions& options) {
          "--floating-base", [&options] { options.base = Base::Floating; },
          "Let the top of models with links move freely")
       ->excludes(fixed);
+  app.add_flag("--free-joints", options.free_joints,
+               "Leave out limits and dry friction of joints; damping stays");
 }
 
 }  // namespace

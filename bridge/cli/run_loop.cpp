@@ -50,6 +50,10 @@ class Run {
     const AdvanceReport report = job_.world.bridge.advance_until(time);
     outcome_.summary.steps += report.updates;
     outcome_.summary.evaluations += report.evaluations;
+    outcome_.summary.joint_events += report.joint_events;
+    outcome_.summary.crowded += report.crowded;
+    // Stops without bounce take energy from what hits them.
+    if (report.joint_events > 0) watch_.begin(job_.world.physics.energy(), false);
     job_.ledger.add(report.notes);
     if (!report.last.ok()) {
       outcome_.code = ExitCode::NumericalFailure;

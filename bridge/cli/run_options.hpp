@@ -23,10 +23,12 @@ struct RunOptions {
   double every{1.0 / 60};            ///< [s], > 0
   double tolerance{1e-9};            ///< of integrators that choose their steps [m/s] and [rad/s], > 0
   bool adaptive{false};              ///< updates as long as samples and toggles let them be
+  bool unwatched{false};             ///< steps as asked for, borne or not
   std::string integrator{"rk4"};     ///< a name that make_integrator knows
   std::optional<UpAxis> up{};        ///< nothing = the first model's
   std::optional<Vector3> gravity{};  ///< [m/s^2]; nothing = 9.81 against the up axis
   Base base{Base::Fixed};
+  bool free_joints{false};         ///< without limits and dry friction
   std::vector<std::string> out{};  ///< files, each .csv or .json
 };
 

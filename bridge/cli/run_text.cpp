@@ -14,7 +14,7 @@ std::string placement_of(const PlacedModel& placed, UpAxis up) {
 
 std::string drift_of(const RunSummary& summary) {
   if (summary.energy_drift) return short_number(*summary.energy_drift) + " of the energy exchanged";
-  return "not conserved: damping or animated nodes do work";
+  return "not conserved: damping, friction, stops, motors or animated nodes do work";
 }
 
 }  // namespace
@@ -49,6 +49,13 @@ void print_summary(std::ostream& out, const RunSummary& summary) {
   table.add({"energy drift", drift_of(summary)});
   table.add({"joint drift",
              short_number(summary.joint_drift_m) + " m, " + short_number(summary.joint_drift_rad) + " rad"});
+  if (summary.joint_events > 0) {
+    table.add({"joint events",
+               std::to_string(summary.joint_events) + " at stops and in dry friction" +
+                   (summary.crowded > 0 ? ", crowded in " + counted(static_cast<std::size_t>(summary.crowded),
+                                                                    "update", "updates")
+                                        : "")});
+  }
   table.add({"wall time", short_number(summary.wall_seconds) + " s"});
   out << "summary\n";
   table.print(out, "  ");

@@ -30,22 +30,14 @@ void place(PlacedModel& placed, const RunOptions& options, RunWorld& world, Ledg
   placed.instance = world.bridge.instantiate(placed.model, world.scene.root(), settings);
 }
 
-/// What a file says about links and this version does not act on while simulating.
-void note_what_is_left_out(const PlacedModel& placed, Ledger& ledger) {
-  for (const ModelNode& node : placed.model.nodes)
-    if (node.dynamics && node.dynamics->friction > 0)
-      ledger.add({Severity::Warning, node.place.empty() ? placed.file : node.place,
-                  "joint '" + (node.link ? node.link->name : node.name) + "'",
-                  "Coulomb friction is not simulated", "expect the joint to move more easily"});
-}
-
 }  // namespace
 
 ClockSettings RunWorld::clock_of(const RunOptions& options) {
   // Nobody waits for a frame here, so no update is ever dropped.
   return {.step = options.step,
           .max_updates = std::numeric_limits<int>::max(),
-          .stepping = options.adaptive ? Stepping::Adaptive : Stepping::Fixed};
+          .stepping = options.adaptive ? Stepping::Adaptive : Stepping::Fixed,
+          .watch_stability = !options.unwatched};
 }
 
 Affine rotation_between(UpAxis from, UpAxis to) {
@@ -66,10 +58,8 @@ void build_world(const RunOptions& options, RunWorld& world, Ledger& ledger) {
   }
   if (ledger.has_error()) return;
   world.up = options.up.value_or(world.models.front().model.up_axis);
-  for (PlacedModel& placed : world.models) {
-    place(placed, options, world, ledger);
-    note_what_is_left_out(placed, ledger);
-  }
+  world.bridge.leave_joints_free(options.free_joints);
+  for (PlacedModel& placed : world.models) place(placed, options, world, ledger);
   std::unique_ptr<Integrator> controlled = make_integrator(options.integrator, options.tolerance);
   world.physics.set_integrator(controlled ? std::move(controlled) : make_integrator(options.integrator));
   world.physics.forces().add(

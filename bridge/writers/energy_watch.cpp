@@ -10,7 +10,11 @@ bool conserves_energy(const PhysicsManager& physics) {
   const std::vector<JointId> joints = physics.joints();
   return std::none_of(joints.begin(), joints.end(), [&](JointId id) {
     const JointDefinition& joint = physics.joint(id);
-    return joint.damping != std::array<double, 3>{} || joint.kind == JointKind::Driven ||
+    for (int axis = 0; axis < axis_count(joint.kind); ++axis)
+      if (physics.motor(id, axis)) return true;
+    const bool is_braked = std::any_of(joint.axes.begin(), joint.axes.end(),
+                                       [](const JointAxis& axis) { return axis.friction > 0; });
+    return is_braked || joint.damping != std::array<double, 3>{} || joint.kind == JointKind::Driven ||
            is_animated(joint.a) || is_animated(joint.b);
   });
 }

@@ -7,8 +7,10 @@
 
 namespace pantin {
 
-/// Whether nothing but potential forces and ideal joints does work on the simulated bodies: no damping, and
-/// no joint to an animated body or driven by one. For a manager whose only force law is gravity.
+/// Whether nothing but potential forces and ideal joints does work on the simulated bodies: no damping or dry
+/// friction, no motor (whose work is nobody's potential; springs on joints have one), and no joint to an
+/// animated body or driven by one. Stops are ideal until they are hit. For a manager whose only force law is
+/// gravity.
 [[nodiscard]] bool conserves_energy(const PhysicsManager& physics);
 
 /// drift = sum over the stretches of max |E(t) - E(begin)|, relative to the largest exchange seen anywhere:

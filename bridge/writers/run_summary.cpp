@@ -8,7 +8,8 @@ void write_summary(JsonStream& json, const RunSummary& summary) {
   json.end_array();
   json.member("bodies", summary.bodies).member("bodies_simulated", summary.bodies_simulated);
   json.member("joints", summary.joints).member("steps", summary.steps);
-  json.member("evaluations", summary.evaluations).member("samples", summary.samples);
+  json.member("evaluations", summary.evaluations).member("joint_events", summary.joint_events);
+  json.member("crowded", summary.crowded).member("samples", summary.samples);
   json.member("toggles", summary.toggles).member("duration", summary.duration);
   json.member("completed", summary.completed);
   json.member("integrator", summary.integrator).member("step", summary.step);

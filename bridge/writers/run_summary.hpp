@@ -16,6 +16,8 @@ struct RunSummary {
   std::size_t joints{0};              ///< joints of physics at the end
   std::int64_t steps{0};              ///< updates of physics
   std::int64_t evaluations{0};        ///< of the derivative
+  std::int64_t joint_events{0};       ///< at stops and in dry friction
+  std::int64_t crowded{0};            ///< parts of updates in which these crowded
   std::int64_t samples{0};            ///< taken, the first at time 0
   std::int64_t toggles{0};            ///< changes of drive that were carried out
   double duration{0};                 ///< time reached [s]

@@ -33,6 +33,7 @@ void Articulated::resize(const TreeLayout& layout) {
   u_.resize(layout.rates);
   D_.resize(layout.rates);
   scale_.resize(layout.rates);
+  holds_ = false;
 }
 
 void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<const RigidMotion> grounds,
@@ -69,6 +70,7 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
         for (int j = 0; j < Model::kRates; ++j) {
           S_a[j] = R_J * S_a[j];
           S_l[j] = R_J * S_l[j];
+          if (is_locked(link.v + static_cast<std::uint32_t>(j))) S_a[j] = S_l[j] = {};
           const double rate = v[link.v + static_cast<std::uint32_t>(j)];
           w_rel += rate * S_a[j];
           v_rel += rate * S_l[j];
@@ -151,7 +153,8 @@ void Articulated::add_wrench(std::int32_t link, const Vector3& force, const Vect
 }
 
 template <int N>
-void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v) {
+void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v,
+                                 std::span<const double> efforts) {
   const Vec* S_a = S_a_.data() + link.v;
   const Vec* S_l = S_l_.data() + link.v;
   Vec* U_a = U_a_.data() + link.v;
@@ -159,6 +162,7 @@ void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span
   double* u = u_.data() + link.v;
   std::array<double, 6>* D = D_.data() + link.v;
   const double angular = work.A.xx + work.A.yy + work.A.zz, linear = work.M.xx + work.M.yy + work.M.zz;
+  const auto rotor = [&link](int j) { return N <= 3 ? link.armature[static_cast<std::size_t>(j)] : 0.0; };
   for (int j = 0; j < N; ++j) {
     U_a[j] = work.A * S_a[j] + work.B * S_l[j];
     U_l[j] = transposed_times(work.B, S_a[j]) + work.M * S_l[j];
@@ -166,14 +170,18 @@ void Articulated::eliminate_link(const TreeLink& link, LinkWork& work, std::span
     if constexpr (N <= 3) {
       if (!v.empty())
         u[j] -= link.damping[static_cast<std::size_t>(j)] * v[link.v + static_cast<std::uint32_t>(j)];
+      if (link.is_loaded && !efforts.empty()) u[j] += efforts[link.v + static_cast<std::uint32_t>(j)];
     }
+    if (holds_) hold_rate(link.v + static_cast<std::uint32_t>(j), !v.empty());
     scale_[link.v + static_cast<std::uint32_t>(j)] =
-        dot(S_a[j], S_a[j]) * angular + dot(S_l[j], S_l[j]) * linear;
+        dot(S_a[j], S_a[j]) * angular + dot(S_l[j], S_l[j]) * linear + rotor(j);
   }
-  // D = S^T U = L d L^T; row j holds L(j, 0..j-1) and d(j).
+  // D = S^T U + armature = L d L^T; row j holds L(j, 0..j-1) and d(j).
   for (int j = 0; j < N; ++j) {
     for (int k = 0; k <= j; ++k) {
       double d = dot(S_a[j], U_a[k]) + dot(S_l[j], U_l[k]);
+      if (j == k) d += rotor(j);
+      if (k == j && is_locked(link.v + static_cast<std::uint32_t>(j))) d = 1;
       const auto row = static_cast<std::size_t>(j), col = static_cast<std::size_t>(k);
       for (std::size_t l = 0; l < col; ++l) d -= D[j][l] * D[k][l] * D[l][l];
       D[row][col] = k < j ? d / D[k][col] : d;
@@ -232,11 +240,12 @@ void Articulated::shift_to_parent(const LinkWork& work, LinkWork& parent) const 
   parent.p_l += work.p_l;
 }
 
-void Articulated::eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v) {
+void Articulated::eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v,
+                            std::span<const double> efforts) {
   for (std::uint32_t i = tree.links_end; i-- > tree.links_begin;) {
     const TreeLink& link = layout.links[i];
     LinkWork& work = work_[i];
-    with_model(link, [&](auto model) { eliminate_link<decltype(model)::kRates>(link, work, v); });
+    with_model(link, [&](auto model) { eliminate_link<decltype(model)::kRates>(link, work, v, efforts); });
     if (link.parent >= 0) shift_to_parent(work, work_[static_cast<std::size_t>(link.parent)]);
   }
 }

@@ -7,8 +7,8 @@
 //   outward   r = r0 + translation(q);  w = w_p + S_a v;  v = v_p + w_p x r + S_l v
 //             al = al_p + w_p x S_a v;  a = a_p + al_p x r + w_p x (w_p x r) + 2 w_p x S_l v          (v' =
 //             0) p = [A al + w x A w + h x a;  m a + al x h + w x (w x h)] - external wrench,  h = m c
-//   inward    U = I^A S;  D = S^T U;  u = tau - S^T p;  M = I^A - U D^-1 U^T;  pi = p + U D^-1 u, shifted to
-//   the parent:
+//   inward    U = I^A S;  D = S^T U + armature;  u = tau - S^T p;  M = I^A - U D^-1 U^T;  pi = p + U D^-1 u,
+//   shifted to the parent:
 //             M' = M_ll;  B' = B + [r] M_ll;  A' = A - B [r] + [r] B'^T;  p_a += pi_a + r x pi_l;  p_l +=
 //             pi_l
 //   outward   da' = (dal_p, da_p + dal_p x r);  v' = D^-1 (u - U^T da');  da = da' + S v'
@@ -59,14 +59,33 @@ class Articulated {
   void load_inertia(const TreeLayout& layout, const Tree& tree);
   /// External wrench on a link: force, and torque about the point `p_WQ`.
   void add_wrench(std::int32_t link, const Vector3& force, const Vector3& torque, const Vector3& p_WQ);
-  /// Damping torques -d v enter here, with the rates given (empty: none).
-  void eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v);
+  /// Damping torques -d v enter here, with the rates given (empty: none), and what else acts on the rates of
+  /// loaded links (empty: nothing; other links' are not read).
+  void eliminate(const TreeLayout& layout, const Tree& tree, std::span<const double> v,
+                 std::span<const double> efforts = {});
+  /// Rates that are locked, so that they and their derivatives are zero by whatever effort it takes: their
+  /// columns vanish. And constant efforts by rate [N m or N], which act wherever damping does. Both of all
+  /// trees; until the next call, or resize.
+  void hold(std::span<const std::uint8_t> locked, std::span<const double> efforts);
+  void hold_nothing() noexcept { holds_ = false; }
+  [[nodiscard]] bool holds() const noexcept { return holds_; }
+  [[nodiscard]] bool is_locked(std::uint32_t rate) const { return holds_ && locked_[rate] != 0; }
+  [[nodiscard]] double effort(std::uint32_t rate) const { return holds_ ? efforts_[rate] : 0; }
+  /// After load_inertia and eliminate: the right-hand side of a tree is zero, then that of an effort more at
+  /// one rate. The next substitute says what these efforts alone accelerate.
+  void clear_efforts(const Tree& tree);
+  void push_effort(const TreeLayout& layout, std::uint32_t link, std::uint32_t rate, double effort);
   /// v' (or the rates, after load_momenta) of a tree, into the vector of all trees.
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
   // After eliminate, for rows between two links (closure.hpp), with D = L d L^T:
+  struct JointEffort {  ///< generalised forces at the joint that ties a link, by rate of the link
+    std::int32_t link{-1};
+    std::array<double, 3> by_rate{};
+  };
   struct RowWrench {
     kernel::Vec3<double> force{}, torque{}, point{};  ///< on B; the opposite on A at the same point of W
+    std::array<JointEffort, 2> efforts{};             ///< of a coupling, which has no wrench
   };
   struct Passing {  ///< work space: a wrench on its way to the ground
     kernel::Vec3<double> p_a{}, p_l{};
@@ -75,8 +94,8 @@ class Articulated {
     double squares{0};  ///< y^T d^-1 y: what the row's wrenches do to the row itself
     double bound{0};    ///< what they could, were every lever at its best
   };
-  /// What the unit wrenches of a row leave at the joints of the closure's path on their way to the ground,
-  /// multiplied by L^-1. `passing` has room for the path.
+  /// What the unit wrenches and efforts of a row leave at the joints of the closure's path on their way to
+  /// the ground, multiplied by L^-1. `passing` has room for the path.
   Reduction reduce(const TreeLayout& layout, const Closure& closure, const RowWrench& row,
                    std::span<Passing> passing, std::span<double> y) const;
   /// y^T d^-1 z of one link.
@@ -93,11 +112,15 @@ class Articulated {
  private:
   using Vec = kernel::Vec3<double>;
   void start_inertia(const TreeLink& link, LinkWork& work) const;
+  void hold_rate(std::uint32_t rate, bool moves);
   template <int N>
-  void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v);
+  void pass_effort(const TreeLink& link, double* y, Vec& p_a, Vec& p_l);
+  template <int N>
+  void eliminate_link(const TreeLink& link, LinkWork& work, std::span<const double> v,
+                      std::span<const double> efforts);
   template <int N>
   void reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a, Vec& p_l,
-                   double* y, Reduction& sum) const;
+                   const double* effort, double* y, Reduction& sum) const;
   template <int N>
   void substitute_link(const TreeLink& link, LinkWork& work, const Vec& dal, const Vec& da,
                        std::span<double> v_dot);
@@ -109,6 +132,9 @@ class Articulated {
   std::vector<double> u_{};
   std::vector<std::array<double, 6>> D_{};
   std::vector<double> scale_{};  ///< by rate: the inertia to which D is compared
+  bool holds_{false};            ///< some rate is locked or has an effort
+  std::vector<std::uint8_t> locked_{};
+  std::vector<double> efforts_{};
 };
 
 }  // namespace pantin

@@ -20,7 +20,7 @@ void Articulated::load_inertia(const TreeLayout& layout, const Tree& tree) {
 
 template <int N>
 void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a,
-                              Vec& p_l, double* y, Reduction& sum) const {
+                              Vec& p_l, const double* effort, double* y, Reduction& sum) const {
   // At its best the lever from the joint to the row's point is at right angles to the force.
   const Vec lever = row.point - work.p;
   const double linear = dot(row.force, row.force);
@@ -28,7 +28,7 @@ void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, const 
   const Vec a = p_a, l = p_l;
   for (int j = 0; j < N; ++j) {
     const auto J = link.v + static_cast<std::uint32_t>(j);
-    y[j] = -dot(S_a_[J], a) - dot(S_l_[J], l);
+    y[j] = effort[j] - dot(S_a_[J], a) - dot(S_l_[J], l);
     double bound = angular * dot(S_a_[J], S_a_[J]) + linear * dot(S_l_[J], S_l_[J]);
     for (int k = 0; k < j; ++k) {
       const double l_jk = D_[J][static_cast<std::size_t>(k)];
@@ -66,14 +66,21 @@ Articulated::Reduction Articulated::reduce(const TreeLayout& layout, const Closu
     const PathLink& at = layout.paths[closure.path_begin + k];
     const TreeLink& link = layout.links[at.link];
     Passing& here = passing[k];
+    double effort[kMostRates] = {};
+    for (const JointEffort& acting : row.efforts) {
+      if (acting.link == static_cast<std::int32_t>(at.link))
+        std::copy(acting.by_rate.begin(), acting.by_rate.end(), effort);
+    }
     with_model(link, [&](auto model) {
-      reduce_link<decltype(model)::kRates>(link, work_[at.link], row, here.p_a, here.p_l, y.data() + at.rates,
-                                           sum);
+      reduce_link<decltype(model)::kRates>(link, work_[at.link], row, here.p_a, here.p_l, effort,
+                                           y.data() + at.rates, sum);
     });
     if (at.up < 0) continue;
     passing[static_cast<std::size_t>(at.up)].p_a += here.p_a;
     passing[static_cast<std::size_t>(at.up)].p_l += here.p_l;
   }
+  // Efforts have no levers, so that what they do never vanishes.
+  if (row.efforts[0].link >= 0) sum.bound = sum.squares;
   return sum;
 }
 

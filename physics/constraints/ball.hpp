@@ -11,6 +11,7 @@ struct BallSettings {
   BodyId a{}, b{};      ///< a null = world; b must be a body
   Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
   double damping{0};    ///< [N m s/rad], >= 0
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(BallSettings settings);
 

@@ -1,10 +1,8 @@
 #include <pantin/physics/constraints/closure.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 #include <pantin/physics/constraints/joint_models.hpp>
-#include <pantin/physics/constraints/spanning_tree.hpp>
 
 namespace pantin {
 
@@ -15,51 +13,7 @@ using kernel::dot;
 using kernel::Mat3;
 using Vec = kernel::Vec3<double>;
 
-Vec vec(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-Mat3<double> mat(const Quaternion& q) {
-  const double c[4] = {q.w(), q.x(), q.y(), q.z()};
-  return kernel::rotation_of(c);
-}
-
 double length(const Vec& v) { return std::sqrt(dot(v, v)); }
-
-/// Motion of a frame fixed at (R_LJ, p_LJ) in another.
-FrameMotion carried(const FrameMotion& L, const Mat3<double>& R_LJ, const Vec& p_LJ) {
-  const Vec r = L.R * p_LJ, w_x_r = cross(L.w, r);
-  FrameMotion J;
-  J.R = L.R * R_LJ;
-  J.p = L.p + r;
-  J.w = L.w, J.al = L.al;
-  J.v = L.v + w_x_r;
-  J.a = L.a + cross(L.al, r) + cross(L.w, w_x_r);
-  return J;
-}
-
-/// Motion of B in the world from that of A and of B in A.
-FrameMotion composed(const FrameMotion& A, const RigidMotion& B) {
-  FrameMotion out = carried(A, mat(B.X_AB.q), vec(B.X_AB.p));
-  const Vec v = A.R * vec(B.v_AB), w = A.R * vec(B.w_AB);
-  out.w += w;
-  out.v += v;
-  out.al += cross(A.w, w) + A.R * vec(B.alpha_AB);
-  out.a += 2.0 * cross(A.w, v) + A.R * vec(B.a_AB);
-  return out;
-}
-
-FrameMotion motion_of(const ClosureEnd& end, const Articulated& kernel,
-                      std::span<const RigidMotion> grounds) {
-  FrameMotion L;
-  L.R = Mat3<double>::identity();
-  if (end.link >= 0) {
-    const LinkWork& work = kernel.link(end.link);
-    L = {work.R, work.p, work.w, work.v, work.al + work.dal, work.a + work.da};
-  } else if (end.ground >= 0) {
-    const RigidMotion& ground = grounds[static_cast<std::size_t>(end.ground)];
-    L = {mat(ground.X_AB.q), vec(ground.X_AB.p),   vec(ground.w_AB),
-         vec(ground.v_AB),   vec(ground.alpha_AB), vec(ground.a_AB)};
-  }
-  return carried(L, end.R_LJ, end.p_LJ);
-}
 
 /// Writes the rows of one closure.
 class Rows {
@@ -116,7 +70,16 @@ class Rows {
     row.rate -= pitch * dot(z, w);
     row.acceleration -= pitch * (dot(z, b_.al - a_.al) + dot(cross(a_.w, z), w));
   }
-  [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(next_ - rows_); }
+  /// Rotor that turns, relative to A, about a column of the joint given in the world and carried by A or B.
+  void turning_rotor(const Vec& c, const Vec& w_carrier, double armature) {
+    const Vec w = b_.w - a_.w;
+    const double acceleration = dot(c, b_.al - a_.al) + dot(cross(w_carrier, c), w);
+    *next_++ = {{{}, c, b_.p}, 0, 0, acceleration, 1, 1, 1 / armature, dot(c, w)};
+  }
+  /// The same of one that moves along an axis of A.
+  void sliding_rotor(const Vec& n, double armature) {
+    *next_++ = {{n, {}, b_.p}, 0, 0, dot(n, acceleration_), 1, 1, 1 / armature, dot(n, rate_)};
+  }
 
  private:
   const FrameMotion &a_, &b_;
@@ -125,98 +88,31 @@ class Rows {
   ClosureRow *rows_, *next_;
 };
 
-ClosureEnd end_of(const TreeLayout& layout, const BodyStore& bodies, BodyId id, const Pose& X_BJ) {
-  ClosureEnd end;
-  Pose X_LJ = X_BJ;
-  if (id) {
-    const std::size_t i = bodies.at(id);
-    end.link = layout.link_of_body[i];
-    if (end.link < 0) end.ground = static_cast<std::int32_t>(i);
-    else X_LJ = layout.pose_in_link(static_cast<std::uint32_t>(i)) * X_BJ;
-  }
-  end.R_LJ = mat(X_LJ.q);
-  end.p_LJ = vec(X_LJ.p);
-  return end;
-}
+}  // namespace
 
-/// All links from either end to the ground, children first: links stand behind their parents.
-void append_path(TreeLayout& layout, Closure& closure) {
-  std::vector<std::int32_t> links;
-  std::int32_t x = closure.a.link, y = closure.b.link;
-  while (x >= 0 || y >= 0) {
-    const std::int32_t last = std::max(x, y);
-    links.push_back(last);
-    const std::int32_t parent = layout.links[static_cast<std::size_t>(last)].parent;
-    if (x == last) x = parent;
-    if (y == last) y = parent;
-  }
-  closure.path_begin = static_cast<std::uint32_t>(layout.paths.size());
-  for (const std::int32_t l : links) {
-    const TreeLink& link = layout.links[static_cast<std::size_t>(l)];
-    const auto up = std::find(links.begin(), links.end(), link.parent);
-    layout.paths.push_back({static_cast<std::uint32_t>(l),
-                            up == links.end() ? -1 : static_cast<std::int32_t>(up - links.begin()),
-                            closure.path_rates});
-    with_model(link, [&](auto model) { closure.path_rates += std::uint32_t{decltype(model)::kRates}; });
-  }
-  closure.path_end = static_cast<std::uint32_t>(layout.paths.size());
+namespace {
+
+void write_rotors(const Closure& closure, const ClosureMotion& motion, Rows& rows) {
+  if (closure.armature == std::array<double, 3>{}) return;
+  const RelativeMotion B = relative(motion);
+  with_model(closure, [&](auto model) {
+    using Model = decltype(model);
+    if constexpr (Model::kRates > 0 && Model::kRates <= 3) {
+      Vec angular[Model::kRates], linear[Model::kRates];
+      model.columns(B.R, angular, linear);
+      for (int j = 0; j < Model::kRates; ++j) {
+        const double armature = closure.armature[static_cast<std::size_t>(j)];
+        const bool on_b = closure.kind == JointKind::Universal && j == 1;
+        if (armature == 0) continue;
+        if (dot(angular[j], angular[j]) > 0)
+          rows.turning_rotor(motion.a.R * angular[j], on_b ? motion.b.w : motion.a.w, armature);
+        else rows.sliding_rotor(motion.a.R * linear[j], armature);
+      }
+    }
+  });
 }
 
 }  // namespace
-
-Closure make_closure(TreeLayout& layout, const BodyStore& bodies, const JointDefinition& joint,
-                     std::int32_t position) {
-  Closure closure;
-  closure.joint = position;
-  closure.kind = joint.kind;
-  closure.rows = static_cast<std::uint32_t>(row_count(joint.kind));
-  closure.a = end_of(layout, bodies, joint.a, joint.X_AJ);
-  closure.b = end_of(layout, bodies, joint.b, joint.X_BJ);
-  closure.pitch = joint.pitch;
-  closure.damping = joint.damping;
-  closure.driver = joint.driver.get();
-  append_path(layout, closure);
-  return closure;
-}
-
-void add_closures(TreeLayout& layout, const BodyStore& bodies, std::span<const JointDefinition* const> joints,
-                  std::span<const std::uint8_t> is_cut) {
-  std::vector<std::pair<std::size_t, std::int32_t>> list;  // tree, joint
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (is_cut[j] == 0) continue;
-    std::int32_t link = -1;
-    for (const BodyId id : {joints[j]->a, joints[j]->b}) {
-      if (id) link = std::max(link, layout.link_of_body[bodies.at(id)]);
-    }
-    list.emplace_back(layout.tree_of(link), static_cast<std::int32_t>(j));
-  }
-  std::stable_sort(list.begin(), list.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-  auto next = list.begin();
-  for (std::size_t t = 0; t < layout.trees.size(); ++t) {
-    Tree& tree = layout.trees[t];
-    tree.closures_begin = static_cast<std::uint32_t>(layout.closures.size());
-    for (; next != list.end() && next->first == t; ++next) {
-      const JointDefinition& joint = *joints[static_cast<std::size_t>(next->second)];
-      const Closure closure = make_closure(layout, bodies, joint, next->second);
-      layout.closure_of_joint[static_cast<std::size_t>(next->second)] =
-          static_cast<std::int32_t>(layout.closures.size());
-      layout.closures.push_back(closure);
-      const auto animated = [&](const ClosureEnd& end) {
-        return end.ground >= 0 && bodies.kinds[static_cast<std::size_t>(end.ground)] == BodyKind::Animated;
-      };
-      tree.follows_driver =
-          tree.follows_driver || closure.driver != nullptr || animated(closure.a) || animated(closure.b);
-    }
-    tree.closures_end = static_cast<std::uint32_t>(layout.closures.size());
-  }
-}
-
-ClosureMotion motion_of(const Closure& closure, const Articulated& kernel,
-                        std::span<const RigidMotion> grounds, Instant at) {
-  ClosureMotion motion{motion_of(closure.a, kernel, grounds), motion_of(closure.b, kernel, grounds)};
-  if (closure.driver != nullptr) motion.a = composed(motion.a, closure.driver->motion(at.t, at.side));
-  return motion;
-}
 
 void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<ClosureRow> out) {
   Rows rows{motion, out.data()};
@@ -242,37 +138,7 @@ void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<C
       if (closure.kind == JointKind::Pivot) rows.same_z();
       if (closure.kind == JointKind::Universal) rows.square(2, 0);
   }
-}
-
-ClosureWrench damping_of(const Closure& closure, const ClosureMotion& m) {
-  // The columns of a joint are at right angles, so that the generalised forces of damping are the components
-  // of one wrench. On a screw it is all torque.
-  ClosureWrench wrench;
-  const FrameMotion &a = m.a, &b = m.b;
-  const Vec w = transposed_times(a.R, b.w - a.w);
-  const Vec v = transposed_times(a.R, b.v - a.v - cross(a.w, b.p - a.p));
-  const Mat3<double> R{[&] {
-    Mat3<double> to;
-    for (int j = 0; j < 3; ++j) {
-      const Vec column = transposed_times(a.R, b.R.column(j));
-      to.m[j] = column.x, to.m[3 + j] = column.y, to.m[6 + j] = column.z;
-    }
-    return to;
-  }()};
-  with_model(closure, [&](auto model) {
-    using Model = decltype(model);
-    if constexpr (Model::kRates > 0 && Model::kRates <= 3) {
-      Vec angular[Model::kRates], linear[Model::kRates];
-      model.columns(R, angular, linear);
-      for (int j = 0; j < Model::kRates; ++j) {
-        const double c = closure.damping[static_cast<std::size_t>(j)];
-        const bool turns = dot(angular[j], angular[j]) > 0;
-        if (turns) wrench.torque += (-c * dot(angular[j], w)) * (a.R * angular[j]);
-        else wrench.force += (-c * dot(linear[j], v)) * (a.R * linear[j]);
-      }
-    }
-  });
-  return wrench;
+  write_rotors(closure, motion, rows);
 }
 
 }  // namespace pantin

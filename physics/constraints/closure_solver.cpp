@@ -60,27 +60,19 @@ void ClosureSolver::resize(const TreeLayout& layout) {
   y_.resize(y);
   W_.resize(entries);
   K_.resize(entries);
-  for (std::vector<double>* x : {&scale_, &b_, &lambda_, &residual_, &multiplier_}) x->assign(row, 0.0);
-}
-
-void ClosureSolver::add_damping(const TreeLayout& layout, const Tree& tree, Articulated& kernel,
-                                std::span<const RigidMotion> grounds, Instant at) {
-  for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
-    const Closure& closure = layout.closures[c];
-    if (closure.damping == std::array<double, 3>{}) continue;
-    const ClosureMotion motion = motion_of(closure, kernel, grounds, at);
-    const ClosureWrench on_b = damping_of(closure, motion);
-    const kernel::Vec3<double>&f = on_b.force, &t = on_b.torque, &p = motion.b.p;
-    const Vector3 force{f.x, f.y, f.z}, torque{t.x, t.y, t.z}, p_WJ{p.x, p.y, p.z};
-    if (closure.b.link >= 0) kernel.add_wrench(closure.b.link, force, torque, p_WJ);
-    if (closure.a.link >= 0) kernel.add_wrench(closure.a.link, -force, -torque, p_WJ);
-  }
+  for (std::vector<double>* x : {&scale_, &b_, &lambda_, &residual_, &multiplier_, &turned_})
+    x->assign(row, 0.0);
 }
 
 void ClosureSolver::measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
-                            std::span<const RigidMotion> grounds, Instant at) {
+                            std::span<const RigidMotion> grounds, Instant at,
+                            const CoordinateMotion& motion) {
   for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
     const Closure& closure = layout.closures[c];
+    if (closure.coupling >= 0) {
+      rows_[places_[c].row] = coupling_row(layout, closure, motion);
+      continue;
+    }
     write_rows(closure, motion_of(closure, kernel, grounds, at),
                std::span{rows_}.subspan(places_[c].row, closure.rows));
   }
@@ -109,12 +101,15 @@ void ClosureSolver::assemble(const TreeLayout& layout, const Tree& tree, const A
       const std::span<double> y =
           std::span{y_}.subspan(places_[c].y + std::size_t{r} * closure.path_rates, closure.path_rates);
       const Articulated::Reduction reduction = kernel.reduce(layout, closure, rows_[row].wrench, passing_, y);
-      scale_[row] = reduction.bound > 0 ? 1 / std::sqrt(reduction.bound) : 0;
+      const double bound = reduction.bound + rows_[row].compliance;
+      scale_[row] = bound > 0 ? 1 / std::sqrt(bound) : 0;
       if (!std::isfinite(reduction.squares)) scale_[row] = std::numeric_limits<double>::quiet_NaN();
     }
     for (std::uint32_t d = tree.closures_begin; d <= c; ++d) {
       if (places_[d + 1].row > places_[c].left) assemble_block(layout, c, d, kernel);
     }
+    for (std::uint32_t i = places_[c].row; i < places_[c + 1].row; ++i)
+      W_[row_at_[i] + (i - left_[i])] += rows_[i].compliance;
   }
 }
 
@@ -218,6 +213,16 @@ void ClosureSolver::solve(const TreeLayout& layout, const Tree& tree, ClosureLev
   }
 }
 
+void ClosureSolver::keep_rotor_rates(const Tree& tree) {
+  for (std::uint32_t i = places_[tree.closures_begin].row; i < places_[tree.closures_end].row; ++i)
+    turned_[i] = rows_[i].turning;
+}
+
+void ClosureSolver::compare_rotor_rates(const Tree& tree) {
+  for (std::uint32_t i = places_[tree.closures_begin].row; i < places_[tree.closures_end].row; ++i)
+    if (rows_[i].compliance > 0) rows_[i].rate = rows_[i].turning - turned_[i];
+}
+
 namespace {
 
 /// What is not a number stays the greatest.
@@ -233,7 +238,7 @@ double ClosureSolver::margin(const Tree& tree) const {
   double least = 1;
   for (std::uint32_t i = places_[tree.closures_begin].row; i < places_[tree.closures_end].row; ++i) {
     const double pivot = K_[row_at_[i] + (i - left_[i])];
-    if (pivot > kRedundant) least = std::min(least, pivot);
+    if (pivot > kRedundant && rows_[i].compliance == 0) least = std::min(least, pivot);
   }
   return least;
 }

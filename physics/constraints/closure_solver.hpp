@@ -5,9 +5,10 @@
 //   W lambda = b,   W = J M^-1 J^T = Y^T D^-1 Y,
 //
 // where Y is what a row's unit wrenches leave at the joints on their way to the ground (Articulated::reduce),
-// D the joints' own inertia. Rows are scaled to what W_ii would be were every lever at its best (not to W_ii,
-// which vanishes where a loop is singular). Loops may be redundant and pass through singular positions, so W
-// need not have an inverse: the proximal solve
+// D the joints' own inertia. Rows of rotors add 1 / armature on the diagonal: they act by what they resist.
+// Rows are scaled to what W_ii would be were every lever at its best (not to W_ii, which vanishes where a
+// loop is singular). Loops may be redundant and pass through singular positions, so W need not have an
+// inverse: the proximal solve
 //
 //   K = W + mu 1,  lambda = K^-1 b,  then four times lambda += K^-1 (b - W lambda)
 //
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include <pantin/physics/constraints/closure.hpp>
+#include <pantin/physics/constraints/coupling_row.hpp>
 
 namespace pantin {
 
@@ -29,17 +31,19 @@ class ClosureSolver {
  public:
   void resize(const TreeLayout& layout);
 
-  /// Adds the wrenches of damping in cut joints to the tree as placed and loaded.
-  static void add_damping(const TreeLayout& layout, const Tree& tree, Articulated& kernel,
-                          std::span<const RigidMotion> grounds, Instant at);
-  /// Rows of the tree as placed, accelerations as last substituted.
+  /// Rows of the tree as placed, accelerations as last substituted; `motion` is what it was placed with.
   void measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
-               std::span<const RigidMotion> grounds, Instant at);
+               std::span<const RigidMotion> grounds, Instant at, const CoordinateMotion& motion);
   /// Multipliers for the tree as measured, with the factor that the kernel holds.
   void factor(const TreeLayout& layout, const Tree& tree, const Articulated& kernel);
   /// Solves for multipliers, and adds what they leave at the joints to the kernel's right-hand side: the next
   /// substitution feels them.
   void solve(const TreeLayout& layout, const Tree& tree, ClosureLevel level, Articulated& kernel);
+
+  /// Rotors of cut joints in a velocity solve: remembers how they turn in the tree as measured, and makes
+  /// what has changed since, in the tree as measured then, what their rows lack.
+  void keep_rotor_rates(const Tree& tree);
+  void compare_rotor_rates(const Tree& tree);
 
   /// How far the tree as factored last is from a position in which rows that are independent elsewhere depend
   /// on each other: the least pivot that is not one of rows which always do, 1 where there are none.
@@ -53,6 +57,8 @@ class ClosureSolver {
   [[nodiscard]] double gap_squared(const Tree& tree) const;
 
   [[nodiscard]] std::span<const ClosureRow> rows(std::uint32_t closure) const;
+  /// Generalised force by which a coupling acts on its b, by the last multipliers [N m] or [N].
+  [[nodiscard]] double effort(std::uint32_t closure) const { return multiplier_[places_[closure].row]; }
   /// Force at Jb's origin and torque on B of a closure by the last multipliers.
   [[nodiscard]] ClosureWrench wrench(std::uint32_t closure) const;
 
@@ -75,7 +81,7 @@ class ClosureSolver {
   std::vector<ClosureRow> rows_{};
   std::vector<double> y_{}, W_{}, K_{};
   std::vector<Articulated::Passing> passing_{};
-  std::vector<double> scale_{}, b_{}, lambda_{}, residual_{}, multiplier_{};
+  std::vector<double> scale_{}, b_{}, lambda_{}, residual_{}, multiplier_{}, turned_{};
 };
 
 }  // namespace pantin

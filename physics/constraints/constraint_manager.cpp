@@ -16,13 +16,15 @@ constexpr double kSnapTolerance = 1e-9;
 
 std::uint64_t mixed(std::uint64_t h, std::uint64_t x) { return (h ^ x) * 0x100000001b3ull; }
 
-std::uint64_t stamp_of(const BodyStore& bodies, const std::vector<JointId>& joints) {
+std::uint64_t stamp_of(const BodyStore& bodies, const std::vector<JointId>& joints,
+                       const std::vector<CouplingId>& couplings) {
   std::uint64_t h = 0xcbf29ce484222325ull;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     h = mixed(mixed(mixed(h, bodies.ids[i].index), bodies.ids[i].generation),
               static_cast<std::uint64_t>(bodies.kinds[i]));
   }
   for (const JointId id : joints) h = mixed(mixed(h, id.index + 1ull), id.generation);
+  for (const CouplingId id : couplings) h = mixed(mixed(h, ~std::uint64_t{id.index}), id.generation);
   return h;
 }
 
@@ -73,12 +75,14 @@ void ConstraintManager::lay_out_anew(BodyStore& bodies) {
   State& state = bodies.state;
   std::vector<const JointDefinition*> joints;
   for (const auto& joint : joints_) joints.push_back(joint.get());
-  layout_ = lay_out(bodies, joints);
+  layout_ = lay_out(bodies, joints, placed_couplings());
   ++layout_revision_;
+  loads_.list(layout_, joints_, motors_);
+  efforts_.assign(layout_.rates, 0.0);
   kernel_.resize(layout_);
   loops_.resize(layout_);
   open_.assign(layout_.trees.size(), {});
-  state.topology = stamp_of(bodies, ids_);
+  state.topology = stamp_of(bodies, ids_, couplings_.ids());
   state.coordinates.assign(layout_.coordinates, 0.0);
   state.rates.assign(layout_.rates, 0.0);
   state.cut_coordinates.assign(kMostCoordinates * layout_.closures.size(), 0.0);
@@ -98,6 +102,7 @@ void ConstraintManager::lay_out_anew(BodyStore& bodies) {
     });
   }
   for (std::size_t c = 0; c < layout_.closures.size(); ++c) {
+    if (layout_.closures[c].coupling >= 0) continue;
     const Numbers near = last_of(layout_.closures[c].joint, layout_.closures[c].kind);
     std::copy_n(near.q, kMostCoordinates, state.cut_coordinates.data() + kMostCoordinates * c);
   }
@@ -119,6 +124,7 @@ void ConstraintManager::measure_anew(BodyStore& bodies, std::size_t t, Instant n
              (X_WL.rotation() - R).norm() > kSnapTolerance;
   }
   if (missed) write_state(bodies, tree, true);
+  measure_rotors(bodies, tree);
   measure_cut_joints(bodies, tree);
 }
 
@@ -142,15 +148,17 @@ void ConstraintManager::prepare(BodyStore& bodies) {
 void ConstraintManager::project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds,
                                 Instant at) {
   State& state = bodies.state;
+  keep_cut_rotors(bodies, tree, grounds, at);
   kernel_.place(layout_, tree, grounds, at, state.coordinates, zero_rates_);
   kernel_.load_momenta(layout_, tree, bodies.mass, state.bodies);
-  kernel_.eliminate(layout_, tree, {});
+  kernel_.eliminate(layout_, tree, {}, rotor_momenta(state.rates));
   kernel_.substitute(layout_, tree, state.rates);
   if (tree.has_closures()) {
     // The impulses of cut joints belong to the same factor.
     kernel_.place(layout_, tree, grounds, at, state.coordinates, state.rates);
     ClosureSolver& solver = loops_.solver();
-    solver.measure(layout_, tree, kernel_, grounds, at);
+    solver.measure(layout_, tree, kernel_, grounds, at, {state.coordinates, state.rates, {}});
+    solver.compare_rotor_rates(tree);
     solver.factor(layout_, tree, kernel_);
     solver.solve(layout_, tree, ClosureLevel::Velocity, kernel_);
     kernel_.substitute(layout_, tree, state.rates);

@@ -10,7 +10,9 @@
 
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/articulated.hpp>
+#include <pantin/physics/constraints/couplings.hpp>
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/joint_loads.hpp>
 #include <pantin/physics/constraints/loop_closer.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 #include <pantin/physics/step_report.hpp>
@@ -30,6 +32,27 @@ class ConstraintManager {
   [[nodiscard]] std::vector<JointId> joints_of(BodyId body) const;
   [[nodiscard]] bool closes_loop(const BodyStore& bodies, BodyId a, BodyId b) const;
 
+  // Springs, rotors and motors (joint_energy.cpp); an axis must be one of the joint's.
+  void set_motor(std::size_t j, int axis, const MotorSettings& motor);
+  void clear_motor(std::size_t j, int axis);
+  [[nodiscard]] std::optional<MotorSettings> motor(std::size_t j, int axis) const;
+  [[nodiscard]] const JointLoads& loads() const noexcept { return loads_; }
+  /// Lists the loads of another layout of these joints, until the revision of the layout changes.
+  void list_loads(TreeLayout& layout, JointLoads& loads) const { loads.list(layout, joints_, motors_); }
+  /// Of springs and rotors.
+  [[nodiscard]] Energy energy(const BodyStore& bodies) const;
+  /// Of spring, motors and damping along each number, on B.
+  [[nodiscard]] JointNumbers effort(const BodyStore& bodies, std::size_t j) const;
+  /// Rotors turn as the bodies of a tree do, whose velocities were set.
+  void measure_rotors(BodyStore& bodies, const Tree& tree) const;
+
+  // Couplings (coupled_joints.cpp)
+  /// Of b the turn is taken, if it counts turns and nothing else is coupled to it, in which the coupling has
+  /// the least to move.
+  CouplingId add(const BodyStore& bodies, GearSettings settings);
+  void remove(CouplingId id) { couplings_.remove(id); }
+  [[nodiscard]] const Couplings& couplings() const noexcept { return couplings_; }
+
   // Layout
   /// Bodies, joints, kinds or masses are about to change: keeps what is known of the coordinates, by joint.
   void stale(const BodyStore& bodies);
@@ -38,13 +61,14 @@ class ConstraintManager {
   void prepare(BodyStore& bodies);
   [[nodiscard]] bool is_stale() const noexcept { return stale_; }
   [[nodiscard]] const TreeLayout& layout() const noexcept { return layout_; }
-  /// Counts how often the layout was made anew.
+  /// Counts how often the layout was made anew, or motors came to a joint that had none or went.
   [[nodiscard]] std::uint64_t layout_revision() const noexcept { return layout_revision_; }
   [[nodiscard]] Articulated& kernel() noexcept { return kernel_; }
   [[nodiscard]] LoopCloser& loops() noexcept { return loops_; }
 
   /// Rates of a tree from the momenta of its bodies: the motion that the joints allow and that has the same
-  /// momentum along it (an articulated impulse solve). Writes velocities and momenta.
+  /// momentum along it (an articulated impulse solve); rotors keep the momentum of the rates in State.
+  /// Writes velocities and momenta.
   void project(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
   /// Writes poses, velocities and momenta of a tree's bodies from its coordinates and rates.
   void commit(BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds, Instant at);
@@ -53,7 +77,7 @@ class ConstraintManager {
   bool reclose(BodyStore& bodies, std::size_t tree, std::span<const RigidMotion> grounds, Instant at);
   /// A body that is not simulated has been placed: what hangs on it moves along.
   void ground_has_moved(BodyStore& bodies, std::int32_t ground, Instant at);
-  /// A loop of the present state, which is prepared, that could not be closed, tried again.
+  /// A loop or coupling of the present state, which is prepared, that could not be closed, tried again.
   [[nodiscard]] OpenLoop find_open_loop(BodyStore& bodies);
   /// What is wrong with an open loop, and what to do.
   [[nodiscard]] SettingsProblem problem_with(const OpenLoop& loop) const;
@@ -84,7 +108,16 @@ class ConstraintManager {
   [[nodiscard]] Pose link_pose(const BodyStore& bodies, const TreeLink& link) const;
   void write_state(BodyStore& bodies, const Tree& tree, bool poses) const;
   void measure_cut_joints(BodyStore& bodies, const Tree& tree) const;
+  [[nodiscard]] std::span<const double> rotor_momenta(std::span<const double> rates);
+  void keep_cut_rotors(const BodyStore& bodies, const Tree& tree, std::span<const RigidMotion> grounds,
+                       Instant at);
+  void list_storing();
+  void list_motors();
   void lay_out_anew(BodyStore& bodies);
+  [[nodiscard]] std::vector<JointCoupling> placed_couplings() const;
+  [[nodiscard]] bool is_idle(const BodyStore& bodies, std::size_t j) const;
+  [[nodiscard]] SettingsProblem problem_with_coupling(const OpenLoop& loop) const;
+  void add_coupling_drift(const BodyStore& bodies, JointDrift& drift) const;
   void measure_anew(BodyStore& bodies, std::size_t tree, Instant now);
   [[nodiscard]] TreeView view(const Tree& tree, std::span<const RigidMotion> grounds, Instant at) {
     return {layout_, tree, kernel_, grounds, at};
@@ -98,12 +131,16 @@ class ConstraintManager {
 
   std::vector<std::unique_ptr<JointDefinition>> joints_{};
   std::vector<JointId> ids_{};
+  std::vector<std::unique_ptr<JointMotors>> motors_{};  ///< by joint position; null where there is none
+  std::vector<std::uint32_t> storing_{};  ///< positions of joints with springs or rotors, ascending
+  JointLoads loads_{};
   std::vector<Numbers> last_{};               ///< by joint position
   std::vector<std::uint32_t> position_of_{};  ///< JointId::index -> position
   std::vector<std::uint32_t> generation_{};
   std::vector<std::uint32_t> free_{};
   std::vector<std::vector<JointId>> joints_of_{};  ///< by BodyId::index
 
+  Couplings couplings_{};
   TreeLayout layout_{};
   std::uint64_t layout_revision_{0};
   Articulated kernel_{};
@@ -111,7 +148,7 @@ class ConstraintManager {
   std::vector<OpenLoop> open_{};  ///< by tree
   bool stale_{true};
   std::vector<RigidMotion> grounds_{};
-  std::vector<double> zero_rates_{};
+  std::vector<double> zero_rates_{}, efforts_{};
 };
 
 }  // namespace pantin

@@ -9,10 +9,12 @@ namespace pantin {
 /// Value: angle [rad], distance [m].
 struct CylindricalSettings {
   std::string name{};
-  BodyId a{}, b{};            ///< a null = world; b must be a body
-  Pose X_AJ{}, X_BJ{};        ///< J seen from the body origins
-  double angular_damping{0};  ///< [N m s/rad], >= 0
-  double linear_damping{0};   ///< [N s/m], >= 0
+  BodyId a{}, b{};                ///< a null = world; b must be a body
+  Pose X_AJ{}, X_BJ{};            ///< J seen from the body origins
+  double angular_damping{0};      ///< [N m s/rad], >= 0
+  double linear_damping{0};       ///< [N s/m], >= 0
+  JointAxis angular{}, linear{};  ///< stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(CylindricalSettings settings);
 

@@ -10,6 +10,7 @@ struct FixedSettings {
   std::string name{};
   BodyId a{}, b{};      ///< a null = world; b must be a body
   Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(FixedSettings settings);
 

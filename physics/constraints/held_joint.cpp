@@ -16,21 +16,6 @@ namespace {
 constexpr double kStride = 0.1;
 constexpr int kParts = 20;
 
-/// Whether whole turns of this number cannot be seen in poses.
-bool counts_turns(JointKind kind, int i) {
-  switch (kind) {
-    case JointKind::Pivot:
-    case JointKind::Universal:
-      return true;
-    case JointKind::Cylindrical:
-      return i == 0;
-    case JointKind::Planar:
-      return i == 2;
-    default:
-      return false;
-  }
-}
-
 /// What is held does not move by itself.
 class Held final : public Driver {
  public:
@@ -49,6 +34,7 @@ struct HeldJoint {
     Closure closure = make_closure(layout, bodies, joint, static_cast<std::int32_t>(j));
     closure.kind = JointKind::Driven;
     closure.rows = kMostRows;
+    closure.armature = {};
     closure.driver = &driver;
     layout.closures.push_back(closure);
     const auto count = static_cast<std::uint32_t>(layout.closures.size());
@@ -94,12 +80,12 @@ bool ConstraintManager::set_value_in_loop(BodyStore& bodies, std::size_t j, cons
   const State before = bodies.state;
   Numbers from = numbers(bodies, j);
   double turn = 0, length = 0;
+  // Whole turns of a joint move nothing, but for what is coupled to it.
+  const bool is_coupled = couplings_.has(ids_[j]);
   for (int i = 0; i < to.size(); ++i) {
-    if (counts_turns(joint.kind, i)) from.q[i] += 2 * M_PI * std::round((to[i] - from.q[i]) / (2 * M_PI));
-    const bool is_length = joint.kind == JointKind::Slider ||
-                           (joint.kind == JointKind::Cylindrical && i == 1) ||
-                           (joint.kind == JointKind::Planar && i < 2);
-    double& most = is_length ? length : turn;
+    if (counts_turns(joint.kind, i) && !is_coupled)
+      from.q[i] += 2 * M_PI * std::round((to[i] - from.q[i]) / (2 * M_PI));
+    double& most = is_length(joint.kind, i) ? length : turn;
     most = std::max(most, std::abs(to[i] - from.q[i]));
   }
   if (joint.kind == JointKind::Ball) {  // of both quaternions of an attitude the nearer
@@ -156,7 +142,8 @@ void ConstraintManager::set_rate_in_loop(BodyStore& bodies, std::size_t j, const
   if (!held.closer.project(with_it, bodies.state.coordinates, bodies.state.rates)) {
     bodies.state.rates = before;
     PANTIN_EXPECTS(false, "joint '" + joint.name +
-                              "' cannot move at this rate with its loop closed; choose one that it allows");
+                              "' cannot move at this rate with its loop closed and its couplings held; "
+                              "choose one that these allow");
   }
   commit(bodies, layout_.trees[t], grounds_, now);
 }

@@ -1,5 +1,7 @@
 #include <pantin/physics/constraints/joint.hpp>
 
+#include <algorithm>
+
 #include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/expects.hpp>
 
@@ -25,9 +27,39 @@ std::string_view to_string(JointKind kind) noexcept {
   return name;
 }
 
+int axis_count(JointKind kind) noexcept {
+  int count = 0;
+  JointDefinition joint;
+  joint.kind = kind;
+  with_model(joint, [&count](auto model) {
+    using Model = decltype(model);
+    if (Model::kCoordinates == Model::kRates) count = Model::kRates;
+  });
+  return count;
+}
+
 double angle_about_z(const Quaternion& q, double near) noexcept {
   const double angle = 2 * std::atan2(q.z(), q.w());
   return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
+}
+
+bool counts_turns(JointKind kind, int number) noexcept {
+  switch (kind) {
+    case JointKind::Pivot:
+    case JointKind::Universal:
+      return true;
+    case JointKind::Cylindrical:
+      return number == 0;
+    case JointKind::Planar:
+      return number == 2;
+    default:
+      return false;
+  }
+}
+
+bool is_length(JointKind kind, int number) noexcept {
+  return kind == JointKind::Slider || (kind == JointKind::Cylindrical && number == 1) ||
+         (kind == JointKind::Planar && number < 2);
 }
 
 namespace {
@@ -47,7 +79,26 @@ JointDefinition defined(JointKind kind, auto& settings) {
     joint.X_BJ = settings.X_BJ;
   }
   if constexpr (requires { settings.damping; }) joint.damping.fill(settings.damping);
+  if constexpr (requires { settings.axis; }) joint.axes[0] = settings.axis;
+  if constexpr (requires { settings.axes; })
+    std::copy(settings.axes.begin(), settings.axes.end(), joint.axes.begin());
+  if constexpr (requires { settings.strength; }) joint.strength = settings.strength;
   return joint;
+}
+
+std::optional<SettingsProblem> problem_with_axes(const JointDefinition& joint) {
+  const std::string subject = std::string{to_string(joint.kind)} + " '" + joint.name + "'";
+  const auto count = static_cast<std::size_t>(axis_count(joint.kind));
+  for (std::size_t i = 0; i < joint.axes.size(); ++i) {
+    if (i >= count && !(joint.axes[i] == JointAxis{})) {
+      return SettingsProblem{ProblemCode::OutOfRange,
+                             subject + ": axis " + std::to_string(i) + " is set, of " + std::to_string(count),
+                             "leave it at its default"};
+    }
+    const std::string number = count > 1 ? ", number " + std::to_string(i) : "";
+    if (auto problem = problem_with(joint.axes[i], subject + number)) return problem;
+  }
+  return problem_with(joint.strength, subject);
 }
 
 }  // namespace
@@ -83,7 +134,7 @@ std::optional<SettingsProblem> problem_with(const JointDefinition& joint) {
     return SettingsProblem{ProblemCode::OutOfRange, subject + "a free joint holds nothing",
                            "leave the joint out"};
   }
-  return std::nullopt;
+  return problem_with_axes(joint);
 }
 
 JointDefinition define(PivotSettings settings) { return defined(JointKind::Pivot, settings); }
@@ -93,6 +144,7 @@ JointDefinition define(FixedSettings settings) { return defined(JointKind::Fixed
 JointDefinition define(CylindricalSettings settings) {
   JointDefinition joint = defined(JointKind::Cylindrical, settings);
   joint.damping = {settings.angular_damping, settings.linear_damping, 0};
+  joint.axes = {settings.angular, settings.linear, {}};
   return joint;
 }
 JointDefinition define(UniversalSettings settings) { return defined(JointKind::Universal, settings); }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <pantin/physics/constraints/joint_axis.hpp>
 #include <pantin/physics/driver.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/pose.hpp>
@@ -60,18 +61,29 @@ class JointNumbers {
 struct JointDefinition {
   JointKind kind{JointKind::Fixed};
   std::string name{};
-  BodyId a{}, b{};                   ///< a null = the world
-  Pose X_AJ{}, X_BJ{};               ///< J seen from the body origins (from the world where a is null)
-  std::array<double, 3> damping{};   ///< viscous, by rate, >= 0 [N m s/rad] or [N s/m]
+  BodyId a{}, b{};                  ///< a null = the world
+  Pose X_AJ{}, X_BJ{};              ///< J seen from the body origins (from the world where a is null)
+  std::array<double, 3> damping{};  ///< viscous, by rate, >= 0 [N m s/rad] or [N s/m]
+  std::array<JointAxis, 3> axes{};  ///< by rate; none for Ball, Fixed, Driven
+  JointStrength strength{};
   double pitch{0};                   ///< [m/rad]; Screw only
   std::unique_ptr<Driver> driver{};  ///< Driven only: X_AB(t)
 };
+
+/// How many numbers of a kind have an axis of their own, with stops, springs, rotors and motors: those whose
+/// rates are their derivatives. None of Ball, Fixed, Driven, Free.
+[[nodiscard]] int axis_count(JointKind kind) noexcept;
 
 /// Checks shared by all joints: finite frames, unit quaternions, b given, a != b, damping >= 0, finite pitch.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const JointDefinition& joint);
 
 /// The angle about z [rad] of the rotation about z nearest to q, in the turn nearest to `near`.
 [[nodiscard]] double angle_about_z(const Quaternion& q, double near) noexcept;
+
+/// Whether whole turns of this number of a joint cannot be seen in poses.
+[[nodiscard]] bool counts_turns(JointKind kind, int number) noexcept;
+/// Whether this number of a joint is a distance [m]; others are angles.
+[[nodiscard]] bool is_length(JointKind kind, int number) noexcept;
 
 /// X_JaJb of a joint that is not driven, at coordinates `value` (as many as it has; quaternions of any length
 /// but 0).

@@ -27,11 +27,14 @@ JointId ConstraintManager::add(JointDefinition joint) {
   joints_.push_back(std::make_unique<JointDefinition>(std::move(joint)));
   ids_.push_back(id);
   last_.emplace_back();
+  motors_.emplace_back();
+  list_storing();
   return id;
 }
 
 void ConstraintManager::remove(JointId id) {
   const std::size_t j = at(id);
+  couplings_.remove_of(id);
   for (const BodyId body : {joints_[j]->a, joints_[j]->b}) {
     if (body) std::erase(joints_of_[body.index], id);
   }
@@ -39,6 +42,8 @@ void ConstraintManager::remove(JointId id) {
   joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(j));
   ids_.erase(ids_.begin() + static_cast<std::ptrdiff_t>(j));
   last_.erase(last_.begin() + static_cast<std::ptrdiff_t>(j));
+  motors_.erase(motors_.begin() + static_cast<std::ptrdiff_t>(j));
+  list_storing();
   for (std::size_t k = j; k < ids_.size(); ++k) position_of_[ids_[k].index] = static_cast<std::uint32_t>(k);
   ++generation_[id.index];
   free_.push_back(id.index);

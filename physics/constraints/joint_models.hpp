@@ -10,6 +10,7 @@
 //   measure    q nearest to a pose, by the present q where there are several
 //   normalise  back to the manifold
 //   reverse    q, v of the joint seen from the other side
+//   reversed_bias    optional, where reverse is not linear: second derivative of the reversed q at v' = 0
 //   reversed_frame   optional: rotation from the joint frames to those in which the other side sees the same
 //   kind
 // A model with a pitch is made with the joint's; others have no parameters.

@@ -195,6 +195,7 @@ JointDrift ConstraintManager::drift(const BodyStore& bodies) const {
     drift.distance = std::max(drift.distance, here.distance);
     drift.angle = std::max(drift.angle, here.angle);
   }
+  add_coupling_drift(bodies, drift);
   return drift;
 }
 

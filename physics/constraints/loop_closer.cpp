@@ -26,7 +26,7 @@ void LoopCloser::resize(const TreeLayout& layout) {
 
 void LoopCloser::look(const TreeView& view, std::span<const double> q, std::span<const double> v) {
   view.kernel.place(view.layout, view.tree, view.grounds, view.at, q, v);
-  solver_.measure(view.layout, view.tree, view.kernel, view.grounds, view.at);
+  solver_.measure(view.layout, view.tree, view.kernel, view.grounds, view.at, {q, v, {}});
 }
 
 void LoopCloser::factor(const TreeView& view) {
@@ -137,7 +137,7 @@ OpenLoop LoopCloser::open_loop(const TreeLayout& layout, const Tree& tree) const
   for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
     for (const ClosureRow& row : solver_.rows(c)) {
       if (std::abs(row.gap) <= std::max(worst.gap, kOpen * (1 + row.size))) continue;
-      worst = {layout.closures[c].joint, std::abs(row.gap)};
+      worst = {layout.closures[c].joint, layout.closures[c].coupling, std::abs(row.gap)};
     }
   }
   return worst;

@@ -21,8 +21,9 @@ struct TreeView {
 
 /// The closure that is farthest from closed, and by how much.
 struct OpenLoop {
-  std::int32_t joint{-1};  ///< position; -1 = all are closed
-  double gap{0};           ///< [m] or [rad]
+  std::int32_t joint{-1};     ///< position; -1 = all are closed
+  std::int32_t coupling{-1};  ///< position, if it is a coupling that is not met
+  double gap{0};              ///< [m] or [rad]
 };
 
 class LoopCloser {

@@ -10,6 +10,7 @@ namespace pantin {
 
 void ConstraintManager::measure_cut_joints(BodyStore& bodies, const Tree& tree) const {
   for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
+    if (layout_.closures[c].coupling >= 0) continue;
     const JointDefinition& joint = *joints_[static_cast<std::size_t>(layout_.closures[c].joint)];
     double* q = bodies.state.cut_coordinates.data() + std::size_t{kMostCoordinates} * c;
     with_model(joint, [&](auto model) { model.measure(relative_pose(bodies, joint), q); });
@@ -29,6 +30,10 @@ bool ConstraintManager::reclose(BodyStore& bodies, std::size_t t, std::span<cons
 
 OpenLoop ConstraintManager::find_open_loop(BodyStore& bodies) {
   if (layout_.closures.empty()) return {};
+  if (const std::int32_t k = layout_.cut_coupling; k >= 0) {
+    const std::size_t b = at(couplings_[static_cast<std::size_t>(k)].b);
+    return {static_cast<std::int32_t>(b), k, 0};
+  }
   const Instant now{bodies.state.time, Side::After};
   for (std::size_t t = 0; t < open_.size(); ++t) {
     if (open_[t].joint < 0) continue;
@@ -42,6 +47,7 @@ OpenLoop ConstraintManager::find_open_loop(BodyStore& bodies) {
 }
 
 SettingsProblem ConstraintManager::problem_with(const OpenLoop& loop) const {
+  if (loop.coupling >= 0) return problem_with_coupling(loop);
   const JointDefinition& joint = *joints_[static_cast<std::size_t>(loop.joint)];
   return {ProblemCode::OpenLoop,
           "the loop that " + std::string{to_string(joint.kind)} + " '" + joint.name +

@@ -11,6 +11,8 @@ struct PivotSettings {
   BodyId a{}, b{};      ///< a null = world; b must be a body
   Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
   double damping{0};    ///< [N m s/rad], >= 0
+  JointAxis axis{};     ///< stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(PivotSettings settings);
 

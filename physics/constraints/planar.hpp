@@ -9,10 +9,12 @@ namespace pantin {
 /// A's joint frame [m], angle about z [rad].
 struct PlanarSettings {
   std::string name{};
-  BodyId a{}, b{};            ///< a null = world; b must be a body
-  Pose X_AJ{}, X_BJ{};        ///< J seen from the body origins
-  double linear_damping{0};   ///< along x and y [N s/m], >= 0
-  double angular_damping{0};  ///< [N m s/rad], >= 0
+  BodyId a{}, b{};                  ///< a null = world; b must be a body
+  Pose X_AJ{}, X_BJ{};              ///< J seen from the body origins
+  double linear_damping{0};         ///< along x and y [N s/m], >= 0
+  double angular_damping{0};        ///< [N m s/rad], >= 0
+  std::array<JointAxis, 3> axes{};  ///< of x, y, angle: stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(PlanarSettings settings);
 
@@ -48,6 +50,15 @@ struct PlanarModel {
     const double vx = -(c * v[0] + s * v[1]) + v[2] * y, vy = -(c * v[1] - s * v[0]) - v[2] * x;
     q[0] = x, q[1] = y, q[2] = -q[2];
     v[0] = vx, v[1] = vy, v[2] = -v[2];
+  }
+  /// Second derivatives of the reversed numbers at v' = 0: with y = R(-a) p and u = R(-a) p',
+  /// y'' = -2 a' z x u - a'^2 y.
+  static void reversed_bias(const double* q, const double* v, double* bias) {
+    const double c = std::cos(q[2]), s = std::sin(q[2]), w = v[2];
+    const double ux = c * v[0] + s * v[1], uy = c * v[1] - s * v[0];
+    bias[0] = -2 * w * uy + w * w * (c * q[0] + s * q[1]);
+    bias[1] = 2 * w * ux + w * w * (c * q[1] - s * q[0]);
+    bias[2] = 0;
   }
 };
 

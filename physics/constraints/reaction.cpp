@@ -57,7 +57,10 @@ Wrench PhysicsManager::reaction(JointId id) const {
   const std::int32_t closure = constraints.layout().closure_of_joint[position];
   std::vector<Wrench> external;
   std::vector<Vector3> alpha, a_cm;
+  impl_->guard.fit();
+  if (impl_->guard.any()) impl_->guard.hold();
   impl_->dynamics.accelerations_now(external, alpha, a_cm);
+  if (impl_->guard.any()) impl_->guard.let_go();
   if (closure >= 0) {
     const CutWrench cut = impl_->dynamics.cut_wrench(static_cast<std::uint32_t>(closure));
     return {cut.force, cut.torque};
@@ -82,6 +85,8 @@ Wrench PhysicsManager::reaction(JointId id) const {
     sum.torque += t + (k.p_WBcm - p_WJ).cross(f);
   }
   for (std::uint32_t c = 0; c < constraints.layout().closures.size(); ++c) {
+    // What a coupling does passes through its joints.
+    if (constraints.layout().closures[c].coupling >= 0) continue;
     const JointDefinition& other =
         constraints.joint(static_cast<std::size_t>(constraints.layout().closures[c].joint));
     const double sign = (side.has(other.a) ? 1 : 0) - (side.has(other.b) ? 1 : 0);

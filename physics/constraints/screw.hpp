@@ -13,6 +13,8 @@ struct ScrewSettings {
   Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
   double pitch{0};      ///< [m/rad], positive for a right-handed thread; 0 makes a pivot
   double damping{0};    ///< on the angle [N m s/rad], >= 0
+  JointAxis axis{};     ///< stops, spring, rotor, friction, on the angle
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(ScrewSettings settings);
 

@@ -12,6 +12,8 @@ struct SliderSettings {
   BodyId a{}, b{};      ///< a null = world; b must be a body
   Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
   double damping{0};    ///< [N s/m], >= 0
+  JointAxis axis{};     ///< stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(SliderSettings settings);
 

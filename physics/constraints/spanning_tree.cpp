@@ -2,6 +2,7 @@
 // J. 36, 1389 (1957)), so that the order among equals is free to keep trees shallow.
 #include <pantin/physics/constraints/spanning_tree.hpp>
 
+#include <algorithm>
 #include <numeric>
 #include <queue>
 
@@ -11,15 +12,31 @@ namespace pantin {
 
 namespace {
 
+bool is_guarded(const JointDefinition& joint) {
+  return std::any_of(joint.axes.begin(), joint.axes.end(),
+                     [](const JointAxis& axis) { return axis.has_stops() || axis.friction > 0; });
+}
+
+/// Rows that a joint costs where it is cut. A rotor there would be one more row that has to be told what it
+/// brings along into an impulse: other joints are cut first.
+int worth_keeping(const JointDefinition& joint) {
+  const bool turns_rotor =
+      std::any_of(joint.axes.begin(), joint.axes.end(), [](const JointAxis& a) { return a.armature > 0; });
+  return row_count(joint.kind) + (turns_rotor ? 6 : 0);
+}
+
 /// Bodies as nodes, and one more node for all that is not simulated.
 class Spanner {
  public:
-  Spanner(const BodyStore& bodies, std::span<const JointDefinition* const> joints)
-      : bodies_{bodies}, joints_{joints}, ground_{bodies.size()} {
+  Spanner(const BodyStore& bodies, std::span<const JointDefinition* const> joints,
+          std::span<const JointCoupling> couplings)
+      : bodies_{bodies}, joints_{joints}, couplings_{couplings}, ground_{bodies.size()} {
     found_.is_cut.assign(joints.size(), 0);
     found_.mechanism.assign(bodies.size(), -1);
     ends_.reserve(joints.size());
     for (const JointDefinition* joint : joints) ends_.push_back({node_of(joint->a), node_of(joint->b)});
+    is_coupled_.assign(joints.size(), false);
+    for (const JointCoupling& coupling : couplings) is_coupled_[coupling.a] = is_coupled_[coupling.b] = true;
   }
 
   SpanningTree span() {
@@ -41,11 +58,13 @@ class Spanner {
 
  private:
   struct Candidate {
+    bool guarded{false};  ///< stops and dry friction act on what is not cut
     int rows{0};
     std::int32_t depth{0};
     std::size_t joint{0}, to{0};
     /// Whether it comes after the other.
     bool operator<(const Candidate& o) const {
+      if (guarded != o.guarded) return !guarded;
       if (rows != o.rows) return rows < o.rows;
       if (depth != o.depth) return depth > o.depth;
       return joint > o.joint;
@@ -65,7 +84,13 @@ class Spanner {
     return body != ground_ && found_.mechanism[body] >= 0;
   }
 
-  /// Numbers the sets of simulated bodies, joined without the ground, in which some joint closes a loop.
+  /// Rows that a cut would cost, as if a coupled joint had more than any other.
+  [[nodiscard]] int weight(std::size_t j) const {
+    return worth_keeping(*joints_[j]) + (is_coupled_[j] ? kMostRates : 0);
+  }
+
+  /// Numbers the sets of simulated bodies, joined without the ground, in which some joint closes a loop or is
+  /// coupled.
   bool number_mechanisms() {
     const auto root_in = [](std::vector<std::size_t>& group, std::size_t i) {
       while (group[i] != i) i = group[i] = group[group[i]];
@@ -82,6 +107,12 @@ class Spanner {
       if (x == y) closing.push_back(j);
       with_ground[x] = y;
       if (a != ground_ && b != ground_) group[root_in(group, a)] = root_in(group, b);
+    }
+    for (const JointCoupling& coupling : couplings_) {
+      const std::size_t x = body_of(coupling.a), y = body_of(coupling.b);
+      if (x == ground_ || y == ground_) continue;
+      group[root_in(group, x)] = root_in(group, y);
+      closing.push_back(coupling.b);
     }
     std::vector<std::int32_t> number(bodies_.size() + 1, -1);
     for (const std::size_t j : closing) {
@@ -129,12 +160,14 @@ class Spanner {
   void offer(std::size_t from) {
     for (std::size_t k = first_[from]; k < first_[from + 1]; ++k) {
       const std::size_t j = neighbours_[k], to = ends_[j].first == from ? ends_[j].second : ends_[j].first;
-      if (reached_[to] == 0) open_.push({row_count(joints_[j]->kind), depth_[from], j, to});
+      if (reached_[to] == 0) open_.push({is_guarded(*joints_[j]), weight(j), depth_[from], j, to});
     }
   }
 
   const BodyStore& bodies_;
   std::span<const JointDefinition* const> joints_;
+  std::span<const JointCoupling> couplings_;
+  std::vector<bool> is_coupled_{};
   std::size_t ground_{0};
   SpanningTree found_{};
   std::vector<std::pair<std::size_t, std::size_t>> ends_{};
@@ -155,8 +188,9 @@ int row_count(JointKind kind) noexcept {
   return 6 - rates;
 }
 
-SpanningTree span_trees(const BodyStore& bodies, std::span<const JointDefinition* const> joints) {
-  return Spanner{bodies, joints}.span();
+SpanningTree span_trees(const BodyStore& bodies, std::span<const JointDefinition* const> joints,
+                        std::span<const JointCoupling> couplings) {
+  return Spanner{bodies, joints, couplings}.span();
 }
 
 }  // namespace pantin

@@ -20,11 +20,16 @@ struct Edge {
 /// Grows the trees body by body, parents first.
 class Builder {
  public:
-  Builder(const BodyStore& bodies, std::span<const JointDefinition* const> joints)
-      : bodies_{bodies}, joints_{joints}, spanning_{span_trees(bodies, joints)} {
+  Builder(const BodyStore& bodies, std::span<const JointDefinition* const> joints,
+          std::span<const JointCoupling> couplings)
+      : bodies_{bodies},
+        joints_{joints},
+        couplings_{couplings},
+        spanning_{span_trees(bodies, joints, couplings)} {
     layout_.link_of_body.assign(bodies.size(), -1);
     layout_.link_of_joint.assign(joints.size(), -1);
     layout_.closure_of_joint.assign(joints.size(), -1);
+    layout_.closure_of_coupling.assign(couplings.size(), -1);
     is_b_.assign(bodies.size(), false);
     collect_edges();
   }
@@ -50,12 +55,12 @@ class Builder {
         if (degree(i) == 0) {
           layout_.free_bodies.push_back(static_cast<std::uint32_t>(i));
         } else {
-          grow_floating(static_cast<std::uint32_t>(i));
+          build_floating(static_cast<std::uint32_t>(i));
         }
       }
     }
     std::sort(layout_.free_bodies.begin(), layout_.free_bodies.end());
-    if (spanning_.has_loops()) add_closures(layout_, bodies_, joints_, spanning_.is_cut);
+    if (spanning_.has_loops()) add_closures(layout_, bodies_, joints_, couplings_, spanning_.is_cut);
     return std::move(layout_);
   }
 
@@ -142,7 +147,11 @@ class Builder {
     link.joint = edge.joint;
     link.kind = joint.kind;
     link.reversed = !edge.to_b;
-    link.damping = joint.damping;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t from = link.reversed && link.kind == JointKind::Universal && i < 2 ? 1 - i : i;
+      link.damping[i] = joint.damping[from], link.armature[i] = joint.axes[from].armature;
+    }
+    if (link.reversed && link.kind == JointKind::Planar) link.damping = {};  // JointLoads does it
     link.pitch = joint.pitch;
     link.driver = joint.driver.get();
     Pose X_JL;  // from the joint's own frames to the kernel's
@@ -168,24 +177,43 @@ class Builder {
     grow();
   }
 
-  /// All trees that loops join are one.
+  /// All trees that loops and couplings join are one.
   void build_mechanism(std::int32_t mechanism) {
     begin_tree();
     for (const auto& [body, edge] : grounded_) {
       if (spanning_.mechanism[static_cast<std::size_t>(body)] == mechanism) grow_from_ground(body, edge);
     }
+    grow_coupled(mechanism);
     end_tree();
   }
 
-  void grow_floating(std::uint32_t body) {
+  void build_floating(std::uint32_t body) {
     begin_tree();
+    grow_floating(body);
+    grow_coupled(spanning_.mechanism[body]);
+    end_tree();
+  }
+
+  /// What floats and is coupled to what the tree begun last has so far.
+  void grow_coupled(std::int32_t mechanism) {
+    if (couplings_.empty() || mechanism < 0) return;
+    for (const bool wanted : {false, true}) {
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (spanning_.mechanism[i] == mechanism && bodies_.kinds[i] == BodyKind::Simulated &&
+            layout_.link_of_body[i] < 0 && is_b_[i] == wanted) {
+          grow_floating(static_cast<std::uint32_t>(i));
+        }
+      }
+    }
+  }
+
+  void grow_floating(std::uint32_t body) {
     TreeLink link;
     link.kind = JointKind::Free;
     // The frame of a floating root sits at the body's centre of gravity, so that spin does not enter its
     // position.
     add_link(link, body, Pose{-bodies_.mass[body].p_BBcm, Quaternion::Identity()});
     grow();
-    end_tree();
   }
 
   void grow() {
@@ -244,6 +272,7 @@ class Builder {
 
   const BodyStore& bodies_;
   std::span<const JointDefinition* const> joints_;
+  std::span<const JointCoupling> couplings_;
   SpanningTree spanning_{};
   TreeLayout layout_{};
   std::vector<std::pair<std::int32_t, Edge>> grounded_{};
@@ -257,39 +286,9 @@ class Builder {
 
 }  // namespace
 
-std::size_t TreeLayout::tree_of(std::int32_t link) const {
-  const auto after = std::upper_bound(trees.begin(), trees.end(), static_cast<std::uint32_t>(link),
-                                      [](std::uint32_t l, const Tree& t) { return l < t.links_begin; });
-  return static_cast<std::size_t>(after - trees.begin()) - 1;
-}
-
-std::size_t TreeLayout::tree_of_closure(std::int32_t closure) const {
-  const auto after = std::upper_bound(trees.begin(), trees.end(), static_cast<std::uint32_t>(closure),
-                                      [](std::uint32_t c, const Tree& t) { return c < t.closures_end; });
-  return static_cast<std::size_t>(after - trees.begin());
-}
-
-bool TreeLayout::stands_on(const Tree& tree, std::int32_t ground) const {
-  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
-    if (links[i].parent < 0 && links[i].joint >= 0 && links[i].ground == ground) return true;
-  }
-  for (std::uint32_t c = tree.closures_begin; c < tree.closures_end; ++c) {
-    for (const ClosureEnd* end : {&closures[c].a, &closures[c].b}) {
-      if (end->link < 0 && end->ground == ground) return true;
-    }
-  }
-  return false;
-}
-
-const Pose& TreeLayout::pose_in_link(std::uint32_t body) const {
-  const TreeLink& link = links[static_cast<std::size_t>(link_of_body[body])];
-  std::uint32_t m = link.members_begin;
-  while (members[m].body != body) ++m;
-  return members[m].X_LB;
-}
-
-TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints) {
-  return Builder{bodies, joints}.build();
+TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints,
+                   std::span<const JointCoupling> couplings) {
+  return Builder{bodies, joints, couplings}.build();
 }
 
 }  // namespace pantin

@@ -1,8 +1,8 @@
 #pragma once
 // Joined bodies as the solver sees them: trees of links, parents first. A link is one body or several that
 // Fixed joints make one; its frame L sits at the joint that ties it to its parent. Bodies that are not
-// simulated are ground: a tree hangs on one of them, or floats, or, where closed loops of joints are cut, on
-// several.
+// simulated are ground: a tree hangs on one of them, or floats, or, where closed loops of joints are cut or
+// joints are coupled, on several.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -37,7 +37,9 @@ struct TreeLink {
   kernel::Vec3<double> moment{};   ///< mass * centre of gravity from L's origin, in L [kg m]
   kernel::Sym3<double> inertia{};  ///< about L's origin, in L [kg m^2]
   std::array<double, 3> damping{};
-  double pitch{0};  ///< [m/rad] of a screw
+  std::array<double, 3> armature{};  ///< by rate, as the link has them [kg m^2 or kg]
+  bool is_loaded{false};             ///< a spring, a motor or a rotor acts on a rate
+  double pitch{0};                   ///< [m/rad] of a screw
   const Driver* driver{nullptr};
 };
 
@@ -56,20 +58,39 @@ struct PathLink {
   std::uint32_t rates{0};  ///< where its rates begin among those of the path
 };
 
-/// A joint that is cut to make a tree of a loop, and holds its bodies together by rows instead.
+/// q_b = ratio q_a + offset between numbers of two joints, given by position. A number is counted from 0 and
+/// seen as B relative to A, as in JointNumbers.
+struct JointCoupling {
+  std::uint32_t a{0}, axis_a{0};
+  std::uint32_t b{0}, axis_b{0};
+  double ratio{1}, offset{0};
+};
+
+/// A number of the joint of a link, as a coupling weighs it.
+struct CoupledNumber {
+  std::int32_t link{-1};
+  std::uint32_t axis{0};
+  double factor{0};
+};
+
+/// What holds by rows instead of by the tree: a joint that is cut to make a tree of a loop, or a coupling,
+/// whose one row has its ends at the links that the coupled joints tie.
 struct Closure {
-  std::int32_t joint{-1};  ///< position
+  std::int32_t joint{-1};  ///< position; of a coupling its b
   JointKind kind{JointKind::Fixed};
   std::uint32_t rows{0};
   ClosureEnd a{}, b{};
-  double pitch{0};  ///< [m/rad] of a screw
-  std::array<double, 3> damping{};
+  double pitch{0};                   ///< [m/rad] of a screw
+  std::array<double, 3> armature{};  ///< by rate of the joint
   const Driver* driver{nullptr};
+  std::int32_t coupling{-1};                 ///< position; -1 = a cut joint
+  std::array<CoupledNumber, 2> coupled{};    ///< of a coupling: a, b
+  double offset{0};                          ///< of a coupling [rad] or [m]
   std::uint32_t path_begin{0}, path_end{0};  ///< links that it moves, children first
   std::uint32_t path_rates{0};
 };
 
-/// A range of links that move together; where loops join several trees, all of these.
+/// A range of links that move together; where loops or couplings join several trees, all of these.
 struct Tree {
   std::uint32_t links_begin{0}, links_end{0};
   std::uint32_t q_begin{0}, q_end{0}, v_begin{0}, v_end{0};
@@ -90,7 +111,9 @@ struct TreeLayout {
   std::vector<std::int32_t>
       link_of_joint{};  ///< by joint position: the link it ties to its parent; -1 = none
   std::vector<std::int32_t> closure_of_joint{};  ///< by joint position; -1 = it is not cut
-  std::uint32_t coordinates{0}, rates{0};        ///< of all trees
+  std::vector<std::int32_t> closure_of_coupling{};  ///< by position; -1 = a joint of it moves nothing
+  std::int32_t cut_coupling{-1};  ///< the first of which a joint had to be cut; -1 = none. It is not held.
+  std::uint32_t coordinates{0}, rates{0};  ///< of all trees
 
   [[nodiscard]] std::size_t tree_of(std::int32_t link) const;
   [[nodiscard]] std::size_t tree_of_closure(std::int32_t closure) const;
@@ -101,7 +124,8 @@ struct TreeLayout {
 };
 
 /// Lays out all simulated bodies. `joints` by position; joints between two grounds are idle. Of closed loops
-/// the joints that span_trees (spanning_tree.hpp) cuts become closures.
-[[nodiscard]] TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints);
+/// the joints that span_trees (spanning_tree.hpp) cuts become closures, and so do couplings.
+[[nodiscard]] TreeLayout lay_out(const BodyStore& bodies, std::span<const JointDefinition* const> joints,
+                                 std::span<const JointCoupling> couplings = {});
 
 }  // namespace pantin

@@ -10,9 +10,11 @@ namespace pantin {
 /// [rad], right-hand sense, B relative to A.
 struct UniversalSettings {
   std::string name{};
-  BodyId a{}, b{};      ///< a null = world; b must be a body
-  Pose X_AJ{}, X_BJ{};  ///< J seen from the body origins
-  double damping{0};    ///< on both angles [N m s/rad], >= 0
+  BodyId a{}, b{};                  ///< a null = world; b must be a body
+  Pose X_AJ{}, X_BJ{};              ///< J seen from the body origins
+  double damping{0};                ///< on both angles [N m s/rad], >= 0
+  std::array<JointAxis, 2> axes{};  ///< stops, spring, rotor, friction
+  JointStrength strength{};
 };
 [[nodiscard]] JointDefinition define(UniversalSettings settings);
 

@@ -45,7 +45,7 @@ class ForceManager {
 
   /// All laws, in the order in which they were added.
   [[nodiscard]] std::span<const ForceLaw* const> laws() const noexcept { return all_; }
-  /// Counts changes of the list.
+  /// Changes with every law that is added or removed.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
   void gather(const BodiesAt& at, std::span<Wrench> wrenches) const { LawList{all_}.gather(at, wrenches); }
   [[nodiscard]] bool depends_on_velocity() const { return LawList{all_}.depends_on_velocity(); }

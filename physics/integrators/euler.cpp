@@ -9,6 +9,8 @@ class Euler final : public Integrator {
  public:
   std::string_view name() const override { return "euler"; }
   int order() const override { return 1; }
+  // What swings grows slowly at any step; this bounds what decays, and the growth to e a radian.
+  double stability_radius() const override { return 1; }
   int evaluations(const Dynamics&) const override { return 1; }
 
   void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {

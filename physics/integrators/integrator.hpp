@@ -112,6 +112,9 @@ class Integrator {
   /// Error per unit time that it keeps to by choosing its steps; infinity: it takes the steps it is asked
   /// for.
   [[nodiscard]] virtual double tolerance() const { return std::numeric_limits<double>::infinity(); }
+  /// Steps up to this over the rate of the fastest motion are borne: |eigenvalue| h of what decays and what
+  /// swings. Infinity: of any length, or it chooses its own.
+  [[nodiscard]] virtual double stability_radius() const { return std::numeric_limits<double>::infinity(); }
   /// Its own control of steps; null if it takes the steps it is asked for.
   [[nodiscard]] virtual StepControl* control() { return nullptr; }
   /// Where to add the motion inside steps from now on; null = nowhere. Ignored by an integrator that has no

@@ -12,6 +12,23 @@ void MotionRecord::clear() noexcept {
   coefficients_.clear();
 }
 
+void MotionRecord::keep_first(std::size_t parts) {
+  if (parts >= parts_.size()) return;
+  coefficients_.resize(parts_[parts].first);
+  parts_.resize(parts);
+}
+
+MotionRecord::Span MotionRecord::part(std::size_t i) const {
+  return {parts_[i].t, parts_[i].h, parts_[i].degree};
+}
+
+void MotionRecord::coefficients(std::size_t i, std::size_t number, std::span<double> c) const {
+  const Part& part = parts_[i];
+  for (std::size_t k = 0; k <= part.degree; ++k) {
+    c[k] = coefficients_[part.first + k * (part.q + part.v) + number];
+  }
+}
+
 double MotionRecord::begin() const {
   PANTIN_EXPECTS(!empty(), "the record of the motion is empty; ask empty() first");
   return parts_.front().t;

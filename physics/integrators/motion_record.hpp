@@ -12,6 +12,7 @@ namespace pantin {
 class MotionRecord {
  public:
   void clear() noexcept;
+  void keep_first(std::size_t parts);  ///< and forget those behind
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
   [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
   [[nodiscard]] double begin() const;  ///< [s]; must not be empty
@@ -29,6 +30,14 @@ class MotionRecord {
   /// Where c_0 and c_1 hold the values and c_3 and c_2 the derivatives [1/s] at the begin and the end of the
   /// part, makes them the cubic through these.
   static void fit_cubic(const Room& part, double h);
+
+  struct Span {
+    double t{0}, h{0};  ///< [s]
+    std::size_t degree{0};
+  };
+  [[nodiscard]] Span part(std::size_t i) const;
+  /// c_0 to c_degree of one number in one part; numbers are those of q, then those of v.
+  void coefficients(std::size_t part, std::size_t number, std::span<double> c) const;
 
   /// The first q.size() and v.size() numbers at a time from begin to end; at a seam those before it.
   void evaluate(double t, std::span<double> q, std::span<double> v) const;

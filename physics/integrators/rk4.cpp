@@ -44,6 +44,7 @@ class Rk4 final : public Integrator {
  public:
   std::string_view name() const override { return "rk4"; }
   int order() const override { return 4; }
+  double stability_radius() const override { return 2.78; }
   int evaluations(const Dynamics&) const override { return 4; }
 
   void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {

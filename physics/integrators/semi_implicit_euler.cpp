@@ -9,6 +9,7 @@ class SemiImplicitEuler final : public Integrator {
  public:
   std::string_view name() const override { return "semi-implicit-euler"; }
   int order() const override { return 1; }
+  double stability_radius() const override { return 2; }
   int evaluations(const Dynamics&) const override { return 1; }
 
   void step(Dynamics& dynamics, double t, double h, std::span<double> q, std::span<double> v) override {

@@ -31,6 +31,7 @@ class Verlet final : public Integrator {
  public:
   std::string_view name() const override { return "verlet"; }
   int order() const override { return 2; }
+  double stability_radius() const override { return 2; }
   int evaluations(const Dynamics& dynamics) const override {
     return dynamics.acceleration_depends_on_velocity() ? 3 : 2;
   }

@@ -46,6 +46,12 @@ struct RateLanes {
   Vec3<T> S_a, S_l, U_a, U_l;
   T u;
   T D[6];  ///< row of the factor: L, then the inverse of d
+
+  /// What is kept of a single rate that is zero, and whose derivative is.
+  void lock() {
+    U_a = U_l = {};
+    u = T(0), D[0] = T(1);
+  }
 };
 
 template <class T>

@@ -159,6 +159,7 @@ class TreeKernel {
       RateLanes<T>* kept = rates(task, c);
       for (int j = 0; j < Model::kRates; ++j) {
         kept[j].S_a = R_J * S_a[j], kept[j].S_l = R_J * S_l[j];
+        if (c.holds && c.locked[j]) kept[j].S_a = kept[j].S_l = {};
         w_rel += rate[j] * kept[j].S_a;
         v_rel += rate[j] * kept[j].S_l;
       }
@@ -206,9 +207,17 @@ class TreeKernel {
     const Vec n = l.R.column(2);
     const Vec x = I.A * n, y = transposed_times(I.B, n);
     T u = -dot(n, p_a);
-    if (c.damping[0] != 0) u -= T(c.damping[0]) * number(task, task.v, c.v);
-    const T inverse = T(1) / dot(n, x);
+    T d = dot(n, x);
+    if (c.is_damped || c.is_loaded) [[unlikely]] {
+      u -= T(c.damping[0]) * number(task, task.v, c.v);
+      if (c.is_loaded) u += number(task, task.efforts, c.v), d += T(c.armature[0]);
+    }
     RateLanes<T>& kept = *rates(task, c);
+    if (c.holds) {
+      if (c.locked[0]) return kept.lock();
+      u += T(c.effort[0]);
+    }
+    const T inverse = T(1) / d;
     kept.U_a = x, kept.U_l = y, kept.u = u, kept.D[0] = inverse;
     take_out(I, p_a, p_l, x, y, inverse * x, inverse * y, u);
   }
@@ -221,14 +230,22 @@ class TreeKernel {
       k[j].U_a = I.A * k[j].S_a + I.B * k[j].S_l;
       k[j].U_l = transposed_times(I.B, k[j].S_a) + I.M * k[j].S_l;
       k[j].u = -dot(k[j].S_a, p_a) - dot(k[j].S_l, p_l);
-      if (c.damping[j] != 0)
-        k[j].u -= T(c.damping[j]) * number(task, task.v, c.v + static_cast<std::uint32_t>(j));
+      if constexpr (N <= 3) {
+        const std::uint32_t rate = c.v + static_cast<std::uint32_t>(j);
+        if (c.is_damped) k[j].u -= T(c.damping[j]) * number(task, task.v, rate);
+        if (c.is_loaded) k[j].u += number(task, task.efforts, rate);
+      }
+      if (c.holds) k[j].u = c.locked[j] ? T(0) : k[j].u + T(c.effort[j]);
     }
-    // D = S^T U = L d L^T: row j keeps L(j, 0..j-1) and 1 / d(j).
+    // D = S^T U + armature = L d L^T: row j keeps L(j, 0..j-1) and 1 / d(j).
     for (int j = 0; j < N; ++j) {
       T e[N];  // L(j, i) d(i)
       for (int i = 0; i <= j; ++i) {
         e[i] = dot(k[j].S_a, k[i].U_a) + dot(k[j].S_l, k[i].U_l);
+        if constexpr (N <= 3) {
+          if (i == j && c.is_loaded) e[i] += T(c.armature[j]);
+        }
+        if (c.holds && i == j && c.locked[j]) e[i] = T(1);
         for (int m = 0; m < i; ++m) e[i] -= e[m] * (i < j ? k[i].D[m] : k[j].D[m]);
         k[j].D[i] = i < j ? e[i] * k[i].D[i] : T(1) / e[i];
       }

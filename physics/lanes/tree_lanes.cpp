@@ -88,6 +88,9 @@ void fill(const TreeLink& link, const BodyStore& bodies, std::int32_t& given, Li
   c.inertia[0] = I.xx, c.inertia[1] = I.yy, c.inertia[2] = I.zz;
   c.inertia[3] = I.xy, c.inertia[4] = I.xz, c.inertia[5] = I.yz;
   std::copy(link.damping.begin(), link.damping.end(), c.damping);
+  std::copy(link.armature.begin(), link.armature.end(), c.armature);
+  c.is_damped = link.damping != std::array<double, 3>{};
+  c.is_loaded = link.is_loaded;
 }
 
 }  // namespace

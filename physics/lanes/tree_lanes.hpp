@@ -33,10 +33,15 @@ struct LinkConstants {
   JointKind kind{JointKind::Fixed};
   bool first_child{false};  ///< of its parent, seen from the last link
   bool leaf{true};
+  bool is_damped{false};  ///< damping is not all 0
+  bool is_loaded{false};  ///< armature and Task::efforts count
   std::uint32_t q{0}, v{0};
   double R_PJ[9]{}, p_PJ[3]{};
   double mass{0}, moment[3]{}, inertia[6]{};  ///< as in TreeLink; xx yy zz xy xz yz
-  double damping[6]{};
+  double damping[3]{}, armature[3]{};         ///< by rate
+  bool holds{false};  ///< some rate is locked, or has a constant effort
+  bool locked[6]{};   ///< rates that stay zero, with their derivatives
+  double effort[6]{};
   double pitch{0};
 };
 
@@ -54,7 +59,8 @@ struct Task {
   std::size_t first{0};   ///< stage of the first lane
   double gravity[3]{};    ///< [m/s^2], uniform
   const double* motions{nullptr};
-  double* work{nullptr};  ///< as much as work_size says, 64-byte aligned
+  const double* efforts{nullptr};  ///< on rates, as v
+  double* work{nullptr};           ///< as much as work_size says, 64-byte aligned
 };
 
 /// A body without joints as the kernel reads it.

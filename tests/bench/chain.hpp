@@ -16,6 +16,9 @@ struct Chain {
   double tip_mass{1};  ///< of the last rod; the others have 1 [kg]
   double spin{0};      ///< rate of the last joint at the start [rad/s]
   double duration{1};  ///< [s]
+  /// Of springs on all joints but the first, at rest at the start [N m/rad], infinite: joints are fixed; and
+  /// of their dampers [N m s/rad].
+  double stiffness{0}, damping{0};
 };
 
 inline bool turns_about_x(int link) { return link % 2 == 0; }

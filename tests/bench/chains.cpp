@@ -1,7 +1,8 @@
 // What the chains of chain.hpp cost at an error, 1 s under gravity, by every solver that keeps to a
 // tolerance. Error: the greatest distance of a centre of gravity from the same chain solved by gauss16 at
 // 1e-14, which dormand-prince at 1e-13 confirms first. Prints a row a solver and tolerance: error, CPU time,
-// least of several runs, and evaluations of the derivative. Then a long run and extremes.
+// least of several runs, and evaluations of the derivative. Then a long run, extremes, and chains with stiff
+// springs.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +11,7 @@
 
 #include "bench/cpu_time.hpp"
 #include "bench/own_chain.hpp"
+#include "bench/stiff_chain.hpp"
 
 #include <pantin/physics/integrators/gauss.hpp>
 
@@ -107,4 +109,5 @@ int main() {
   pantin::bench::measure({1000, true});
   pantin::bench::long_run();
   pantin::bench::extremes();
+  pantin::bench::measure_stiff_chains();
 }

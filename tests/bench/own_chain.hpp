@@ -1,5 +1,6 @@
 #pragma once
 // The chains and the top in Pantin.
+#include <pantin/physics/constraints/fixed.hpp>
 #include <pantin/physics/constraints/pivot.hpp>
 #include <pantin/physics/forces/gravity.hpp>
 #include <pantin/physics/physics_manager.hpp>
@@ -23,8 +24,11 @@ inline PhysicsManager build(const Chain& chain) {
     rod.mass.p_BBcm = {0, 0, -kRodLength / 2};
     rod.mass.I_BBcm_B = Vector3{across, across, inertia_along(mass)}.asDiagonal();
     const BodyId id = physics.add(std::move(rod));
-    physics.add(
-        test::joint_here<PivotSettings>(physics, up, id, X_WJ * Pose{Vector3::Zero(), test::facing(axis)}));
+    const Pose X_WA = X_WJ * Pose{Vector3::Zero(), test::facing(axis)};
+    auto pivot = test::joint_here<PivotSettings>(physics, up, id, X_WA);
+    if (i > 0) pivot.axis.stiffness = chain.stiffness, pivot.damping = chain.damping;
+    if (std::isinf(pivot.axis.stiffness)) physics.add(test::joint_here<FixedSettings>(physics, up, id, X_WA));
+    else physics.add(std::move(pivot));
     up = id;
     X_WJ.p = X_WJ * Vector3{0, 0, -kRodLength};
   }

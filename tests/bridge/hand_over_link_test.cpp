@@ -17,19 +17,17 @@ using test::Stage;
 using test::turned;
 
 TEST(HandOver, SaysWhatOfLinksIsNotEnforced) {
-  // Limits and mimic are geometry only so far: one warning each, with how many.
+  // A mimic outside of an instance is geometry only: one warning, with how many.
   Stage s;
   const NodeId top = box(s, s.scene.root(), "top", Affine::Identity());
   for (int k = 0; k < 3; ++k) {
     const NodeId id = box(s, top, "arm", Affine::Identity());
     Link link = test::pivot_link("p" + std::to_string(k), Affine::Identity(), {0, 0, 1});
-    link.limits[0].upper = 1;
     if (k == 2) link.mimic = LinkMimic{.source = "p0"};
     s.scene.set_link(id, link);
   }
   const std::vector<Diagnostic> notes = s.bridge.hand_over(top, Scope::Subtree);
-  EXPECT_TRUE(says(notes, "top", "3 joint(s) here have limits, which are not enforced while simulated"));
-  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not enforced while simulated"));
+  EXPECT_TRUE(says(notes, "top", "1 joint(s) here mimic another, which is not held while they are"));
 }
 
 TEST(HandOver, KeepsTheValueOfALinkWithItsTurns) {

@@ -36,7 +36,8 @@ TEST(EnergyWatch, SaysNothingWhereEnergyNeedNotStay) {
 }
 
 TEST(ConservesEnergy, UnlessAJointDampsOrIsMoved) {
-  // Damping takes energy, and an animated end does work through the joint; static and simulated ends do not.
+  // Damping takes energy, a motor gives some, and an animated end does work through the joint; springs,
+  // static and simulated ends do not.
   for (const double damping : {0.0, 0.1}) {
     PhysicsManager physics;
     const BodyId body = physics.add(RigidBodySettings{.name = "rod"});
@@ -46,7 +47,11 @@ TEST(ConservesEnergy, UnlessAJointDampsOrIsMoved) {
   PhysicsManager physics;
   const BodyId still = physics.add(RigidBodySettings{.name = "still", .kind = BodyKind::Static});
   const BodyId rod = physics.add(RigidBodySettings{.name = "rod"});
-  physics.add(PivotSettings{.a = still, .b = rod});
+  const JointId joint = physics.add(PivotSettings{.a = still, .b = rod, .axis = {.stiffness = 3}});
+  EXPECT_TRUE(conserves_energy(physics));
+  physics.set_motor(joint, {.effort = 1});
+  EXPECT_FALSE(conserves_energy(physics));
+  physics.clear_motor(joint);
   EXPECT_TRUE(conserves_energy(physics));
   class Standing final : public Driver {
    public:

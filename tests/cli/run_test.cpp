@@ -86,6 +86,28 @@ TEST(Run, SaysHowTrueItStayed) {
   EXPECT_EQ(summary["duration"], 5.0);
 }
 
+TEST(Run, LeavesOutLimitsAndFrictionWhereAskedTo) {
+  // A pendulum with dry friction hits its lower limit and comes to rest: energy is lost, events are counted.
+  // With
+  // --free-joints it swings through and keeps its energy.
+  const TemporaryFolder folder;
+  std::string text = kPendulumUrdf;
+  const std::string axis = "<axis xyz=\"0 1 0\"/>", type = "continuous";
+  text.insert(text.find(axis) + axis.size(),
+              "<limit lower=\"-0.5\" upper=\"2\" effort=\"1\" velocity=\"1\"/><dynamics friction=\"0.4\"/>");
+  if (const std::size_t at = text.find(type); at != std::string::npos)
+    text.replace(at, type.size(), "revolute");
+  const std::string file = folder.write("p.urdf", text);
+  const Json held = run({file, "--simulate", "all", "--joint", "hinge=1", "--duration", "9"})["summary"];
+  EXPECT_GE(held["joint_events"].get<int>(), 2);
+  EXPECT_EQ(held["crowded"], 0);
+  EXPECT_TRUE(held["energy_drift_relative"].is_null());
+  EXPECT_LT(held["energy_final"].get<double>(), held["energy_initial"].get<double>() - 1);
+  const Json free = run({file, "--simulate", "all", "--joint", "hinge=1", "--free-joints"})["summary"];
+  EXPECT_EQ(free["joint_events"], 0);
+  EXPECT_LT(free["energy_drift_relative"].get<double>(), 1e-7);
+}
+
 TEST(Run, ExpectsNoConservationUnderDamping) {
   // Damping takes energy, so a drift would mean nothing: it is null, and the energy at the end is less.
   const TemporaryFolder folder;

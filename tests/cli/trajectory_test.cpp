@@ -120,11 +120,27 @@ TEST(Trajectory, HasTheDocumentedShape) {
                    "angular_velocity_world", "drive"}));
   EXPECT_EQ(keys(result["samples"][0]["joints"]["hinge"]), (Names{"value", "rate"}));
   EXPECT_EQ(keys(result["samples"][0]["energy"]), (Names{"kinetic", "potential", "total"}));
-  EXPECT_EQ(keys(result["summary"]),
-            (Names{"models", "bodies", "bodies_simulated", "joints", "steps", "evaluations", "samples",
-                   "toggles", "duration", "completed", "integrator", "step", "energy_initial", "energy_final",
-                   "energy_conserved_expected", "energy_drift_relative", "joint_drift_m", "joint_drift_rad",
-                   "wall_seconds"}));
+  EXPECT_EQ(keys(result["summary"]), (Names{"models",
+                                            "bodies",
+                                            "bodies_simulated",
+                                            "joints",
+                                            "steps",
+                                            "evaluations",
+                                            "joint_events",
+                                            "crowded",
+                                            "samples",
+                                            "toggles",
+                                            "duration",
+                                            "completed",
+                                            "integrator",
+                                            "step",
+                                            "energy_initial",
+                                            "energy_final",
+                                            "energy_conserved_expected",
+                                            "energy_drift_relative",
+                                            "joint_drift_m",
+                                            "joint_drift_rad",
+                                            "wall_seconds"}));
 }
 
 TEST(Trajectory, PlacesOriginAndCentreOfGravity) {

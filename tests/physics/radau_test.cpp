@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <bench/own_chain.hpp>
 #include <support/expect_contract.hpp>
 #include <support/mixed_tree.hpp>
 #include <support/order_of_convergence.hpp>
@@ -69,6 +70,27 @@ TEST(Radau, FollowsStiffForcesInStepsOfTheMotionItself) {
     other->step(follower, 0, 2, off.q, off.v);
     EXPECT_NEAR(off.q[0], follower.exact(2).q[0], 1e-7) << rate;
     EXPECT_LT(other->control()->accepted, 1000) << rate;
+  }
+}
+
+TEST(Radau, TakesStiffSpringsOnJointsInTenStepsASecond) {
+  // Four of five rods on critically damped springs. Where Gauss stages can still follow the springs they are
+  // the reference; where they are stiffer, it is the chain without those joints, which torques below 20 N m
+  // bend by less than 10 / k m. Ten steps of order seven leave some 1e-7 m.
+  const auto tip = [](double stiffness, std::unique_ptr<Integrator> integrator, int steps) {
+    bench::Chain chain{5, true};
+    chain.stiffness = stiffness;
+    if (std::isfinite(stiffness)) chain.damping = 2 * std::sqrt(0.05 * stiffness);
+    PhysicsManager physics = bench::build(chain);
+    physics.set_integrator(std::move(integrator));
+    EXPECT_TRUE(test::run(physics, 1.0 / steps, steps)) << stiffness;
+    return physics.body(physics.bodies().back()).p_WBcm();
+  };
+  const auto tight = [] { return make_gauss({.stages = 8, .tolerance = 1e-12}); };
+  for (const double k : {1e2, 1e4, 1e6, 1e8, 1e10}) {
+    const Vector3 found = tip(k, make_radau({.tolerance = kInf}), 10);
+    const Vector3 exact = tip(k > 1e5 ? kInf : k, tight(), 1);
+    EXPECT_LT((found - exact).norm(), 2e-7 + (k > 1e5 ? 10 / k : 0)) << k;
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <pantin/physics/constraints/planar.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 
@@ -102,6 +104,39 @@ TEST(SpanningTree, KnowsTheRowsOfEveryKind) {
   EXPECT_EQ(row_count(JointKind::Universal), 4);
   EXPECT_EQ(row_count(JointKind::Planar), 3);
   EXPECT_EQ(row_count(JointKind::Screw), 5);
+}
+
+TEST(SpanningTree, CutsCoupledJointsLast) {
+  // Of a ring with a ball, two pivots and a fixed joint the ball would be cut: with the pivots coupled it still
+  // is; without a ball, it is the fixed joint, though it has the most rows. Where all are coupled, one is cut.
+  Graph g{3};
+  g.join(-1, 0), g.join(0, 1, JointKind::Ball), g.join(1, 2, JointKind::Fixed), g.join(-1, 2);
+  const auto cut = [](const Graph& graph, std::vector<JointCoupling> couplings) {
+    return span_trees(graph.bodies, graph.list(), couplings).is_cut;
+  };
+  EXPECT_EQ(cut(g, {{.a = 0, .b = 3}}), (Cut{0, 1, 0, 0}));
+  Graph h{3};
+  h.join(-1, 0), h.join(0, 1), h.join(1, 2, JointKind::Fixed), h.join(-1, 2);
+  EXPECT_EQ(cut(h, {{.a = 0, .b = 3}, {.a = 1, .b = 3}}), (Cut{0, 0, 1, 0}));
+  Graph all{2};
+  all.join(-1, 0), all.join(0, 1), all.join(-1, 1);
+  const Cut one = cut(all, {{.a = 0, .b = 1}, {.a = 1, .b = 2}});
+  EXPECT_EQ(std::count(one.begin(), one.end(), 1), 1);
+}
+
+TEST(SpanningTree, MakesOneMechanismOfWhatIsCoupled) {
+  // A chain on the ground and a floating pair, coupled, are one tree with two roots; a third one is its own.
+  Graph g{6};
+  g.join(-1, 0), g.join(0, 1), g.join(2, 3), g.join(4, 5);
+  const std::vector<JointCoupling> couplings{{.a = 1, .b = 2, .ratio = 2}};
+  const TreeLayout layout = lay_out(g.bodies, g.list(), couplings);
+  ASSERT_EQ(layout.trees.size(), 2u);
+  EXPECT_EQ(layout.trees[0].links_end - layout.trees[0].links_begin, 4u);
+  EXPECT_TRUE(layout.trees[0].has_closures());
+  EXPECT_FALSE(layout.trees[1].has_closures());
+  ASSERT_EQ(layout.closures.size(), 1u);
+  EXPECT_EQ(layout.closures[0].path_end - layout.closures[0].path_begin, 4u) << "all links move by it";
+  EXPECT_EQ(layout.closure_of_coupling, (std::vector<std::int32_t>{0}));
 }
 
 }  // namespace

@@ -72,6 +72,9 @@ std::vector<lanes::LinkConstants> random_tree(int count, std::uint32_t& coordina
     for (double& h : c.moment) h = 0.1 * any(random);
     for (int k = 0; k < 3; ++k) c.inertia[k] = 1 + any(random) / 3, c.inertia[3 + k] = 0.1 * any(random);
     for (double& d : c.damping) d = 0.1;
+    c.is_damped = true;
+    c.is_loaded = i % 2 == 1;
+    if (c.is_loaded) std::fill_n(c.armature, 3, 0.05);
     c.pitch = 0.2;
   }
   for (std::size_t i = links.size(); i-- > 1;) {
@@ -90,9 +93,10 @@ TEST(TreeLanes, AllInstructionSetsSayTheSame) {
   constexpr std::size_t kStages = 8;
   std::mt19937 random{5};
   std::uniform_real_distribution<double> any{-1, 1};
-  std::vector<double> q(coordinates * kStages), v(rates * kStages);
+  std::vector<double> q(coordinates * kStages), v(rates * kStages), efforts(rates * kStages);
   for (double& x : q) x = any(random);
   for (double& x : v) x = any(random);
+  for (double& x : efforts) x = any(random);
   std::vector<double> first;
   for (const lanes::InstructionSet set : lanes::instruction_sets()) {
     const lanes::Kernel& kernel = lanes::kernel_for(set);
@@ -108,6 +112,7 @@ TEST(TreeLanes, AllInstructionSetsSayTheSame) {
                              .stages = kStages,
                              .first = s,
                              .gravity = {0.1, 0.2, -9.81},
+                             .efforts = efforts.data(),
                              .work = room.data() + (64 - address % 64) % 64 / sizeof(double)};
       kernel.outward(task);
       kernel.solve(task);

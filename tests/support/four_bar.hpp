@@ -87,7 +87,8 @@ struct FourBar {
   std::array<JointId, 4> joints{};  ///< ground-crank, crank-coupler, coupler-rocker, ground-rocker
 
   /// `order` in which the joints are added, which decides on the one that is cut among equals.
-  explicit FourBar(std::array<int, 4> order = {0, 1, 2, 3}, double damping = 0, bool moves = true) {
+  explicit FourBar(std::array<int, 4> order = {0, 1, 2, 3}, double damping = 0, bool moves = true,
+                   const std::array<JointAxis, 4>& axes = {}) {
     gravity = physics.forces().add(Gravity{.g_W = {0, -kG, 0}});
     const Shape s = shape(kStart);
     const double speed = moves ? kRate : 0;
@@ -114,6 +115,7 @@ struct FourBar {
       PivotSettings pivot = joint_here<PivotSettings>(physics, ends[j].first, ends[j].second,
                                                       {place[j], Quaternion::Identity()}, names[j]);
       pivot.damping = damping;
+      pivot.axis = axes[j];
       joints[j] = physics.add(pivot);
     }
   }
