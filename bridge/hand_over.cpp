@@ -58,7 +58,6 @@ class Bridge::Impl::HandOver {
     nodes_.insert(nodes.begin(), nodes.end());
     for (const NodeId node : nodes) plan(node);
     refuse_fixed_below(id);
-    note_mimics();
     if (has_error(notes_)) return std::move(notes_);
     commit();
     if (!has_error(notes_)) note_mimics_not_held();
