@@ -28,7 +28,8 @@ void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, const 
   const Vec a = p_a, l = p_l;
   for (int j = 0; j < N; ++j) {
     const auto J = link.v + static_cast<std::uint32_t>(j);
-    y[j] = effort[j] - dot(S_a_[J], a) - dot(S_l_[J], l);
+    // What holds a locked rate bears whatever acts there.
+    y[j] = is_locked(J) ? 0 : effort[j] - dot(S_a_[J], a) - dot(S_l_[J], l);
     double bound = angular * dot(S_a_[J], S_a_[J]) + linear * dot(S_l_[J], S_l_[J]);
     for (int k = 0; k < j; ++k) {
       const double l_jk = D_[J][static_cast<std::size_t>(k)];

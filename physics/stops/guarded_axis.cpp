@@ -1,6 +1,7 @@
 #include <pantin/physics/stops/guarded_axis.hpp>
 
 #include <pantin/physics/stops/axis_mode.hpp>
+#include <pantin/physics/stops/coupled_axes.hpp>
 #include <pantin/physics/stops/joint_event.hpp>
 
 namespace pantin {
@@ -31,13 +32,14 @@ AxisPlace place_of_axis(JointKind kind, int axis, bool reversed) {
 
 std::vector<GuardedAxis> guarded_axes(const TreeLayout& layout,
                                       std::span<const JointDefinition* const> joints) {
+  const std::vector<std::array<JointAxis, 3>> axes = axes_by_leader(layout, joints);
   std::vector<GuardedAxis> out;
   for (std::uint32_t l = 0; l < layout.links.size(); ++l) {
     const TreeLink& link = layout.links[l];
     if (link.joint < 0) continue;
-    const JointDefinition& joint = *joints[static_cast<std::size_t>(link.joint)];
-    for (int i = 0; i < static_cast<int>(joint.axes.size()); ++i) {
-      const JointAxis& axis = joint.axes[static_cast<std::size_t>(i)];
+    const std::array<JointAxis, 3>& of_joint = axes[static_cast<std::size_t>(link.joint)];
+    for (int i = 0; i < static_cast<int>(of_joint.size()); ++i) {
+      const JointAxis& axis = of_joint[static_cast<std::size_t>(i)];
       const AxisPlace place = place_of_axis(link.kind, i, link.reversed);
       if (!is_guarded(axis) || !place.known) continue;
       const auto number = static_cast<std::uint32_t>(place.number);

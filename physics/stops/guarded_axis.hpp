@@ -30,7 +30,8 @@ struct AxisPlace {
 };
 [[nodiscard]] AxisPlace place_of_axis(JointKind kind, int axis, bool reversed);
 
-/// By link, so that those of a tree stand side by side.
+/// By link, so that those of a tree stand side by side. What acts on coupled numbers acts on the one that
+/// leads them (coupled_axes.hpp).
 [[nodiscard]] std::vector<GuardedAxis> guarded_axes(const TreeLayout& layout,
                                                     std::span<const JointDefinition* const> joints);
 
