@@ -122,7 +122,8 @@ class PhysicsManager {
 
 
   // Stops and dry friction
-  /// How one of a joint's numbers moves, by what the last step decided: Free before the first step.
+  /// How one of a joint's numbers moves, by what the last step decided: Free before the first step, and where
+  /// a coupling leads the number: its stops and friction then act on the number that leads.
   [[nodiscard]] AxisMode axis_mode(JointId id, int axis = 0) const;
   /// What its stops and its dry friction exert along one of a joint's numbers at the present state [N m or
   /// N], positive where it pushes the number up: evaluated on demand.
