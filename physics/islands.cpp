@@ -1,7 +1,8 @@
 #include <pantin/physics/islands.hpp>
 
 #include <algorithm>
-#include <numeric>
+
+#include <pantin/physics/disjoint_sets.hpp>
 
 namespace pantin {
 namespace {
@@ -10,15 +11,14 @@ namespace {
 class Coupler {
  public:
   Coupler(const BodyStore& bodies, const TreeLayout& layout)
-      : bodies_{bodies}, parent_(bodies.size() + 1), is_plain_(bodies.size(), 0) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
+      : bodies_{bodies}, coupled_{bodies.size() + 1}, is_plain_(bodies.size(), 0) {
     for (const std::uint32_t i : layout.free_bodies) is_plain_[i] = 1;
     for (const Tree& tree : layout.trees) {
       const std::uint32_t first = layout.members[layout.links[tree.links_begin].members_begin].body;
       for (std::uint32_t l = tree.links_begin; l < tree.links_end; ++l) {
         const TreeLink& link = layout.links[l];
         for (std::uint32_t m = link.members_begin; m < link.members_end; ++m) {
-          join(first, layout.members[m].body);
+          coupled_.join(first, layout.members[m].body);
         }
       }
     }
@@ -32,7 +32,7 @@ class Coupler {
     has_particles_ = has_particles_ || with_particles;
     std::uint32_t first = with_particles ? particles() : kNone;
     const auto couple = [&](std::uint32_t i) {
-      if (first != kNone) join(first, i);
+      if (first != kNone) coupled_.join(first, i);
       first = i;
     };
     bool is_named = false;
@@ -50,9 +50,9 @@ class Coupler {
 
   [[nodiscard]] std::vector<Island> collect() {
     std::vector<Island> islands;
-    std::vector<std::uint32_t> place(parent_.size(), kNone);
+    std::vector<std::uint32_t> place(bodies_.size() + 1, kNone);
     const auto island_of = [&](std::uint32_t i) -> Island& {
-      std::uint32_t& at = place[root(i)];
+      std::uint32_t& at = place[coupled_.root(i)];
       if (at == kNone) {
         at = static_cast<std::uint32_t>(islands.size());
         islands.emplace_back();
@@ -78,14 +78,9 @@ class Coupler {
 
   [[nodiscard]] std::uint32_t particles() const { return static_cast<std::uint32_t>(bodies_.size()); }
   [[nodiscard]] bool is_simulated(std::uint32_t i) const { return bodies_.kinds[i] == BodyKind::Simulated; }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
 
   const BodyStore& bodies_;
-  std::vector<std::uint32_t> parent_;
+  DisjointSets coupled_;
   std::vector<std::uint8_t> is_plain_;  ///< free, and named by no law
   bool has_particles_{false};
 };

@@ -2,13 +2,15 @@
 
 #include <bit>
 
+#include <pantin/physics/stamp.hpp>
+
 namespace pantin {
 
 namespace {
 
 std::uint64_t mixed(std::uint64_t h, double x) {
   std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
-  for (int i = 0; i < 8; ++i, bits >>= 8) h = (h ^ (bits & 0xff)) * 0x100000001b3ull;
+  for (int i = 0; i < 8; ++i, bits >>= 8) h = stamped(h, bits & 0xff);
   return h;
 }
 
@@ -30,7 +32,7 @@ bool operator==(const State& a, const State& b) {
 }
 
 std::uint64_t hash(const State& state) {
-  std::uint64_t h = mixed(0xcbf29ce484222325ull, state.time);
+  std::uint64_t h = mixed(kStampSeed, state.time);
   for (const BodyState& s : state.bodies) {
     h = mixed(h, s.p_WBcm);
     for (int i = 0; i < 4; ++i) h = mixed(h, s.q_WB.coeffs()[i]);

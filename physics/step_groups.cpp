@@ -13,20 +13,19 @@
 
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/islands.hpp>
+#include <pantin/physics/stamp.hpp>
 #include <pantin/physics/world.hpp>
 
 namespace pantin {
 namespace {
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t x) { return (h ^ x) * 0x100000001b3ull; }
-
 /// Of bodies and integrators, group by group: equal for managers that were built alike.
 std::uint64_t stamp_of(const std::vector<StepGroup>& groups, const std::vector<BodyId>& ids) {
-  std::uint64_t h = 0xcbf29ce484222325ull;
+  std::uint64_t h = kStampSeed;
   for (const StepGroup& group : groups) {
-    h = mixed(h, 2 * group.bodies.size() + (group.has_particles ? 1 : 0));
-    for (const std::uint32_t i : group.bodies) h = mixed(mixed(h, ids[i].index), ids[i].generation);
-    for (const char c : group.integrator->name()) h = mixed(h, static_cast<unsigned char>(c));
+    h = stamped(h, 2 * group.bodies.size() + (group.has_particles ? 1 : 0));
+    for (const std::uint32_t i : group.bodies) h = stamped(stamped(h, ids[i].index), ids[i].generation);
+    for (const char c : group.integrator->name()) h = stamped(h, static_cast<unsigned char>(c));
   }
   return h;
 }

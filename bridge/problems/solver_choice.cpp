@@ -2,33 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include <pantin/physics/disjoint_sets.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
 namespace {
 
 using namespace reference;
-
-/// Sets of numbers 0 to n - 1 that grow together.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// False if they were together before.
-  bool join(std::size_t a, std::size_t b) {
-    const std::size_t from = root(a), to = root(b);
-    parent_[from] = to;
-    return from != to;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Bodies and particles that something couples; world and animated bodies couple nothing, but loops may close
 /// through them.
@@ -38,7 +19,7 @@ class Islands {
     for (const Body& body : problem.bodies) add(body.name);
     for (const Particle& particle : problem.particles) add(particle.name);
     const std::size_t ground = names_.size();
-    UnionFind coupled{ground + 1}, jointed{ground + 1};
+    DisjointSets coupled{ground + 1}, jointed{ground + 1};
     const auto couple = [&](const std::string& a, const std::string& b) {
       const auto at_a = index_.find(a), at_b = index_.find(b);
       if (at_a != index_.end() && at_b != index_.end()) coupled.join(at_a->second, at_b->second);
@@ -72,7 +53,7 @@ class Islands {
     index_.emplace(name, names_.size());
     names_.push_back(name);
   }
-  void collect(UnionFind& coupled, const std::vector<std::size_t>& closing) {
+  void collect(DisjointSets& coupled, const std::vector<std::size_t>& closing) {
     std::map<std::size_t, std::size_t> order;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto [place, is_new] = order.emplace(coupled.root(i), islands_.size());

@@ -6,6 +6,7 @@
 
 #include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/expects.hpp>
+#include <pantin/physics/stamp.hpp>
 
 namespace pantin {
 
@@ -14,17 +15,15 @@ namespace {
 /// Poses that miss their joints by less are left as they are: (relative to the distance from the origin).
 constexpr double kSnapTolerance = 1e-9;
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t x) { return (h ^ x) * 0x100000001b3ull; }
-
 std::uint64_t stamp_of(const BodyStore& bodies, const std::vector<JointId>& joints,
                        const std::vector<CouplingId>& couplings) {
-  std::uint64_t h = 0xcbf29ce484222325ull;
+  std::uint64_t h = kStampSeed;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    h = mixed(mixed(mixed(h, bodies.ids[i].index), bodies.ids[i].generation),
-              static_cast<std::uint64_t>(bodies.kinds[i]));
+    h = stamped(stamped(stamped(h, bodies.ids[i].index), bodies.ids[i].generation),
+                static_cast<std::uint64_t>(bodies.kinds[i]));
   }
-  for (const JointId id : joints) h = mixed(mixed(h, id.index + 1ull), id.generation);
-  for (const CouplingId id : couplings) h = mixed(mixed(h, ~std::uint64_t{id.index}), id.generation);
+  for (const JointId id : joints) h = stamped(stamped(h, id.index + 1ull), id.generation);
+  for (const CouplingId id : couplings) h = stamped(stamped(h, ~std::uint64_t{id.index}), id.generation);
   return h;
 }
 

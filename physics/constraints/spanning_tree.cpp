@@ -7,6 +7,7 @@
 #include <queue>
 
 #include <pantin/physics/constraints/joint_models.hpp>
+#include <pantin/physics/disjoint_sets.hpp>
 
 namespace pantin {
 
@@ -92,35 +93,27 @@ class Spanner {
   /// Numbers the sets of simulated bodies, joined without the ground, in which some joint closes a loop or is
   /// coupled.
   bool number_mechanisms() {
-    const auto root_in = [](std::vector<std::size_t>& group, std::size_t i) {
-      while (group[i] != i) i = group[i] = group[group[i]];
-      return i;
-    };
-    std::vector<std::size_t> with_ground(bodies_.size() + 1), group(bodies_.size() + 1);
-    std::iota(with_ground.begin(), with_ground.end(), std::size_t{0});
-    std::iota(group.begin(), group.end(), std::size_t{0});
+    DisjointSets with_ground{bodies_.size() + 1}, group{bodies_.size() + 1};
     std::vector<std::size_t> closing;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const auto [a, b] = ends_[j];
       if (a == ground_ && b == ground_) continue;
-      const std::size_t x = root_in(with_ground, a), y = root_in(with_ground, b);
-      if (x == y) closing.push_back(j);
-      with_ground[x] = y;
-      if (a != ground_ && b != ground_) group[root_in(group, a)] = root_in(group, b);
+      if (!with_ground.join(a, b)) closing.push_back(j);
+      if (a != ground_ && b != ground_) group.join(a, b);
     }
     for (const JointCoupling& coupling : couplings_) {
       const std::size_t x = body_of(coupling.a), y = body_of(coupling.b);
       if (x == ground_ || y == ground_) continue;
-      group[root_in(group, x)] = root_in(group, y);
+      group.join(x, y);
       closing.push_back(coupling.b);
     }
     std::vector<std::int32_t> number(bodies_.size() + 1, -1);
     for (const std::size_t j : closing) {
-      std::int32_t& n = number[root_in(group, body_of(j))];
+      std::int32_t& n = number[group.root(body_of(j))];
       if (n < 0) n = found_.mechanisms++;
     }
     for (std::size_t i = 0; found_.has_loops() && i < bodies_.size(); ++i) {
-      found_.mechanism[i] = number[root_in(group, i)];
+      found_.mechanism[i] = number[group.root(i)];
     }
     return found_.has_loops();
   }
