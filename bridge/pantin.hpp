@@ -47,6 +47,7 @@
 #include <pantin/physics/forces/torsion_spring.hpp>
 #include <pantin/physics/forces/uniform_field.hpp>
 #include <pantin/physics/forces/wind.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/gauss.hpp>

@@ -120,7 +120,6 @@ class PhysicsManager {
   /// or N]; of a ball by axis of B's joint frame. Not what the joint itself holds: that is its reaction.
   [[nodiscard]] JointNumbers joint_effort(JointId id) const;
 
-
   // Stops and dry friction
   /// How one of a joint's numbers moves, by what the last step decided: Free before the first step, and where
   /// a coupling leads the number: its stops and friction then act on the number that leads.

@@ -31,7 +31,7 @@ struct RigidBodySettings {
   Vector3 w_WB{Vector3::Zero()};       ///< angular velocity in W [rad/s]; simulated bodies only
   MassProperties mass{};               ///< massless only for a body that joints will tie to others
   InertiaCheck inertia_check{InertiaCheck::Physical};  ///< how strictly `mass` is judged
-  std::unique_ptr<Driver> driver{};    ///< the world trajectory of an animated body
+  std::unique_ptr<Driver> driver{};                    ///< the world trajectory of an animated body
 };
 
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const RigidBodySettings& settings);

@@ -71,6 +71,15 @@ void WorldDynamics::tree_rates(std::span<const double> q, std::span<const double
   }
 }
 
+BodiesAt WorldDynamics::bodies_at(Instant at) const {
+  return {.t = at.t,
+          .side = at.side,
+          .kinematics = stage_,
+          .mass = bodies_.mass,
+          .kind = bodies_.kinds,
+          .position_of = bodies_.position_of};
+}
+
 void WorldDynamics::gather_wrenches(Instant at) {
   if (bodies_.state.loaded) {
     for (std::size_t i = 0; i < wrenches_.size(); ++i) {
@@ -79,12 +88,7 @@ void WorldDynamics::gather_wrenches(Instant at) {
   } else {
     std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
   }
-  const BodiesAt bodies{.t = at.t,
-                        .side = at.side,
-                        .kinematics = stage_,
-                        .mass = bodies_.mass,
-                        .kind = bodies_.kinds,
-                        .position_of = bodies_.position_of};
+  const BodiesAt bodies = bodies_at(at);
   laws().gather(bodies, wrenches_);
   if (also != nullptr) also->add_wrenches(bodies, wrenches_);
 }

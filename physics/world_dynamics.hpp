@@ -8,6 +8,7 @@
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/constraint_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/lanes/tree_lanes.hpp>
 #include <pantin/physics/world_part.hpp>
@@ -114,6 +115,10 @@ class WorldDynamics final : public Dynamics {
   void derivatives(const Stages& stages) override;
   void rates(const Stages& stages) override;
   void weights(std::span<double> q_weight, std::span<double> v_weight) override;
+  /// Islands.
+  void list_groups(NumberGroups& groups) override;
+  /// Of islands of free bodies exact, from what the laws state; of trees by differences.
+  void jacobian(const JacobianPoint& point, Jacobian& J) override;
 
   /// What stages are computed in; they are computed one after the other where this is off.
   bool uses_lanes{true};
@@ -129,6 +134,7 @@ class WorldDynamics final : public Dynamics {
   void evaluate(Instant at, std::span<const double> q, std::span<const double> v, std::span<double> q_dot,
                 std::span<double> v_dot);
   void gather_wrenches(Instant at);
+  [[nodiscard]] BodiesAt bodies_at(Instant at) const;
   void evaluate_loops(Instant at, const Tree& tree, std::span<const double> q, std::span<const double> v,
                       std::span<double> v_dot);
   void settle_loops(Instant at, std::span<double> q, std::span<double> v);
@@ -193,6 +199,27 @@ class WorldDynamics final : public Dynamics {
   void free_forces(const Stages& stages, const Vector3& g_W);
   LaneRoom lane_{};
   OpenLoop open_loop_{};
+
+  // The Jacobian (world_jacobian.cpp).
+  struct FreeBlock {
+    std::size_t group{0}, q{0}, v{0};  ///< where its 7 and 6 numbers begin in the group
+    double inverse_mass{0};
+    Matrix3 inverse_inertia_W{Matrix3::Zero()}, spin_by_turn{Matrix3::Zero()};
+    Eigen::Matrix<double, 3, 4> turn_by_q{Eigen::Matrix<double, 3, 4>::Zero()};
+  };
+  struct JacobianRoom {
+    std::uint64_t layout{0}, forces{0};  ///< what the groups are of; 0 = nothing yet
+    NumberGroups groups{};
+    std::vector<std::uint8_t> is_free{};     ///< by group: no trees
+    std::vector<FreeBlock> free{};           ///< by free body here
+    std::vector<std::int32_t> free_place{};  ///< by position: which of the free bodies here; -1 = none
+    std::vector<std::size_t> wanted{};
+    WrenchDerivatives derivatives{};
+  };
+  void fit_groups();
+  void add_free_motion(const JacobianPoint& point, Jacobian& J);
+  void add_laws(Jacobian& J);
+  JacobianRoom jacobian_{};
 };
 
 }  // namespace pantin

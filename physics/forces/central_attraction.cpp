@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <pantin/physics/forces/force_target.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -34,6 +35,19 @@ class CentralAttractionLaw final : public ForceLaw {
       if (!is_centre(at, i)) sum += at.mass[i].mass * potential(at.kinematics[i].p_WBcm - p_WC);
     });
     return sum;
+  }
+
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    if (target_.particles) return true;
+    const Vector3 p_WC = centre(at);
+    target_.for_each_simulated(at, [&](std::size_t i) {
+      if (is_centre(at, i)) return;
+      const double m = at.mass[i].mass;
+      const Vector3 r = at.kinematics[i].p_WBcm - p_WC;
+      derivatives.add_pair(at, i, settings_.centre,
+                           {.force_a = m * acceleration(r), .by_distance = -m * gradient(r)});
+    });
+    return true;
   }
 
   bool names(BodyId body) const override {
@@ -95,6 +109,13 @@ class CentralAttractionLaw final : public ForceLaw {
     const double d = distance(r);
     if (d == 0) return Vector3::Zero();
     return -(settings_.mu / (d * d)) * (r / d);
+  }
+  /// Of the acceleration, by r.
+  [[nodiscard]] Matrix3 gradient(const Vector3& r) const {
+    const double d = distance(r);
+    if (d == 0) return Matrix3::Zero();
+    const Vector3 n = r / d;
+    return -(settings_.mu / (d * d)) / d * (Matrix3::Identity() - 3 * n * n.transpose());
   }
   [[nodiscard]] double potential(const Vector3& r) const {
     const double d = distance(r);

@@ -1,5 +1,6 @@
 #include <pantin/physics/forces/constant_load.hpp>
 
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -29,10 +30,24 @@ class ConstantLoadLaw final : public ForceLaw {
     return -settings_.force.dot(point_at(at, {settings_.body, settings_.p_BQ}).p_WQ);
   }
 
-  bool names(BodyId body) const override { return body && body == settings_.body; }
-  Coupling coupling() const override {
-    return {.reach = Coupling::Reach::Named, .bodies = {settings_.body}};
+  /// The arm turns with the body; in its axes the load does.
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    const std::size_t i = at.index(settings_.body);
+    const Matrix3& R_WB = at.kinematics[i].R_WB;
+    const Vector3 arm = R_WB * (settings_.p_BQ - at.mass[i].p_BBcm);
+    WrenchDerivative& part = derivatives.add(i, i);
+    if (settings_.axes == LoadAxes::World) {
+      part.torque.turn = cross_matrix(settings_.force) * cross_matrix(arm);
+    } else {
+      const Vector3 force = R_WB * settings_.force;
+      part.force.turn = -cross_matrix(force);
+      part.torque.turn = -cross_matrix(arm.cross(force) + R_WB * settings_.torque);
+    }
+    return true;
   }
+
+  bool names(BodyId body) const override { return body && body == settings_.body; }
+  Coupling coupling() const override { return {.reach = Coupling::Reach::Named, .bodies = {settings_.body}}; }
 
  private:
   ConstantLoad settings_;

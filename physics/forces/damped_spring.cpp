@@ -3,6 +3,7 @@
 // angular momentum changes. The potential is k (l - l0)^2 / 2; the damper has none.
 #include <pantin/physics/forces/damped_spring.hpp>
 
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -25,6 +26,30 @@ class DampedSpringLaw final : public ForceLaw {
     const Vector3 force = tension * n;
     if (settings_.a.body) add_force_at(at, at.index(settings_.a.body), a.p_WQ, force, wrenches);
     if (settings_.b.body) add_force_at(at, at.index(settings_.b.body), b.p_WQ, -force, wrenches);
+  }
+
+  /// With N = (1 - n n^T) / l, the derivative of n by d: T n changes by (n (k n^T + c d'^T N) + T N) with d
+  /// and by c n n^T with its rate.
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    const PointKinematics a = point_at(at, settings_.a);
+    const PointKinematics b = point_at(at, settings_.b);
+    const Vector3 d = b.p_WQ - a.p_WQ, d_rate = b.v_WQ - a.v_WQ;
+    const double length = d.stableNorm();
+    if (length == 0) {
+      const double stiffness = settings_.rest_length == 0 ? settings_.stiffness : 0;
+      derivatives.add_pair(at, settings_.a, settings_.b, {.by_distance = stiffness * Matrix3::Identity()});
+      return true;
+    }
+    const Vector3 n = d / length;
+    const Matrix3 N = (Matrix3::Identity() - n * n.transpose()) / length;
+    const double tension =
+        settings_.stiffness * (length - settings_.rest_length) + settings_.damping * n.dot(d_rate);
+    const Vector3 by_d = settings_.stiffness * n + settings_.damping * (N * d_rate);
+    derivatives.add_pair(at, settings_.a, settings_.b,
+                         {.force_a = tension * n,
+                          .by_distance = n * by_d.transpose() + tension * N,
+                          .by_rate = settings_.damping * n * n.transpose()});
+    return true;
   }
 
   double potential_energy(const BodiesAt& at) const override {

@@ -1,11 +1,12 @@
 #pragma once
 // The law of a field that acts on each body and particle by itself: what uniform and radial fields share.
-// A field gives at(p), the force per unit of mass or charge, and potential(p), the energy per unit. Private
-// to the force laws.
+// A field gives at(p), the force per unit of mass or charge, derivative(p) of that, and potential(p), the
+// energy per unit. Private to the force laws.
 #include <optional>
 
 #include <pantin/physics/forces/force_law.hpp>
 #include <pantin/physics/forces/force_target.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 
 namespace pantin {
 
@@ -26,6 +27,13 @@ class FieldLaw final : public ForceLaw {
       sum += charge_.value_or(at.mass[i].mass) * field_.potential(at.kinematics[i].p_WBcm);
     });
     return sum;
+  }
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    target_.for_each_simulated(at, [&](std::size_t i) {
+      derivatives.add(i, i).force.position =
+          charge_.value_or(at.mass[i].mass) * field_.derivative(at.kinematics[i].p_WBcm);
+    });
+    return true;
   }
   bool names(BodyId body) const override { return target_.names(body); }
   Coupling coupling() const override { return target_.coupling(); }

@@ -14,6 +14,8 @@
 
 namespace pantin {
 
+class WrenchDerivatives;
+
 /// How far a law reaches: which bodies it couples, in that what one of them feels depends on where another is
 /// or how it moves. Bodies that are not simulated couple nothing.
 struct Coupling {
@@ -47,6 +49,12 @@ class ForceLaw {
   [[nodiscard]] virtual std::optional<Vector3> uniform_acceleration() const { return {}; }
   /// Whether the law looks at velocities; lets integrators save evaluations.
   [[nodiscard]] virtual bool depends_on_velocity() const { return false; }
+  /// Adds how its wrenches change with the motion of bodies, for implicit integrators; bodies that are not
+  /// simulated may be left out. False, with nothing added, where it does not say: differences are taken then.
+  virtual bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const {
+    (void)at, (void)derivatives;
+    return false;
+  }
   /// Whether the law names this body; it is removed with the body.
   [[nodiscard]] virtual bool names(BodyId body) const {
     (void)body;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <pantin/physics/expects.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 
 namespace pantin {
 namespace {
@@ -61,6 +62,12 @@ void LawList::gather(const BodiesAt& at, std::span<Wrench> wrenches) const {
   PANTIN_EXPECTS(wrenches.size() == at.size(), std::to_string(wrenches.size()) + " wrenches for " +
                                                    std::to_string(at.size()) + " bodies; give one a body");
   for (const ForceLaw* law : laws_) law->add_wrenches(at, wrenches);
+}
+
+bool LawList::gather_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const {
+  return std::all_of(laws_.begin(), laws_.end(), [&](const ForceLaw* law) {
+    return law->add_derivatives(at, derivatives) || derivatives.add_differences(*law, at);
+  });
 }
 
 double ForceManager::potential_energy(const BodiesAt& at) const {

@@ -18,6 +18,9 @@ class LawList {
 
   /// Adds all laws' wrenches.
   void gather(const BodiesAt& at, std::span<Wrench> wrenches) const;
+  /// Adds how all laws' wrenches change with the motion of bodies. False where one couples all bodies and
+  /// does not say how.
+  [[nodiscard]] bool gather_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const;
   /// The sum of all laws, where each gives the same acceleration to every body [m/s^2].
   [[nodiscard]] std::optional<Vector3> uniform_acceleration() const;
   [[nodiscard]] bool depends_on_velocity() const;

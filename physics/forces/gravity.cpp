@@ -26,6 +26,7 @@ class GravityLaw final : public ForceLaw {
     return energy;
   }
 
+  bool add_derivatives(const BodiesAt&, WrenchDerivatives&) const override { return true; }  // none changes
   std::optional<Vector3> uniform_acceleration() const override { return g_W_; }
   Coupling coupling() const override { return {.reach = Coupling::Reach::Each}; }
 

@@ -1,6 +1,7 @@
 #include <pantin/physics/forces/linear_drag.hpp>
 
 #include <pantin/physics/forces/force_target.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -18,6 +19,15 @@ class LinearDragLaw final : public ForceLaw {
     } else {
       add_drag(settings_, at.size(), at.kinematics.data(), wrenches.data());
     }
+  }
+
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    ForceTarget{settings_.body, settings_.particles}.for_each_simulated(at, [&](std::size_t i) {
+      WrenchDerivative& part = derivatives.add(i, i);
+      part.force.velocity = -settings_.coefficient * Matrix3::Identity();
+      part.torque.spin = -settings_.angular_coefficient * Matrix3::Identity();
+    });
+    return true;
   }
 
   bool depends_on_velocity() const override {

@@ -1,6 +1,7 @@
 #include <pantin/physics/forces/magnetic_field.hpp>
 
 #include <pantin/physics/forces/force_target.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -14,6 +15,11 @@ class MagneticFieldLaw final : public ForceLaw {
   void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const override {
     target_.for_each_body(
         at, [&](std::size_t i) { wrenches[i].force += at.kinematics[i].v_WBcm.cross(charged_field_); });
+  }
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    target_.for_each_simulated(
+        at, [&](std::size_t i) { derivatives.add(i, i).force.velocity = -cross_matrix(charged_field_); });
+    return true;
   }
   bool depends_on_velocity() const override { return !charged_field_.isZero(0); }
   bool names(BodyId body) const override { return target_.names(body); }

@@ -16,6 +16,13 @@ struct MediumDrag {
     return -(linear + quadratic * relative.norm()) * relative;
   }
 
+  [[nodiscard]] Matrix3 derivative(const Vector3& relative) const {
+    const double speed = relative.norm();
+    if (speed == 0) return -linear * Matrix3::Identity();
+    return -(linear + quadratic * speed) * Matrix3::Identity() -
+           quadratic / speed * relative * relative.transpose();
+  }
+
   void add(const ParticlesAt& at, const Vector3& u, const ParticleForces& forces) const {
     const double c = linear, d = quadratic, ux = u.x(), uy = u.y(), uz = u.z();
     const double *vx = at.vx.data(), *vy = at.vy.data(), *vz = at.vz.data();

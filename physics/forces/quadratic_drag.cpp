@@ -2,6 +2,7 @@
 
 #include <pantin/physics/forces/force_target.hpp>
 #include <pantin/physics/forces/medium_drag.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
@@ -20,6 +21,16 @@ class QuadraticDragLaw final : public ForceLaw {
       wrenches[i].force += drag_.force(at.kinematics[i].v_WBcm - settings_.medium_velocity);
       wrenches[i].torque -= settings_.angular_coefficient * w_WB.norm() * w_WB;
     });
+  }
+
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    const MediumDrag angular{.quadratic = settings_.angular_coefficient};
+    target_.for_each_simulated(at, [&](std::size_t i) {
+      WrenchDerivative& part = derivatives.add(i, i);
+      part.force.velocity = drag_.derivative(at.kinematics[i].v_WBcm - settings_.medium_velocity);
+      part.torque.spin = angular.derivative(at.kinematics[i].w_WB);
+    });
+    return true;
   }
 
   bool depends_on_velocity() const override {

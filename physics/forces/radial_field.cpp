@@ -18,6 +18,14 @@ struct Radial {
     if (d == 0) return Vector3::Zero();
     return strength * std::pow(d / at_distance, exponent) * (r / d);
   }
+  [[nodiscard]] Matrix3 derivative(const Vector3& p_W) const {
+    const Vector3 r = p_W - centre;
+    const double d = distance(r);
+    if (d == 0) return Matrix3::Zero();
+    const Vector3 n = r / d;
+    return strength * std::pow(d / at_distance, exponent) / d *
+           (Matrix3::Identity() + (exponent - 1) * n * n.transpose());
+  }
   [[nodiscard]] double potential(const Vector3& p_W) const {
     const double d = distance(p_W - centre), power = exponent + 1;
     if (d == 0 && power <= 0) return 0;  // no number stands for it; there is no force there either

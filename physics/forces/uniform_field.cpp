@@ -9,6 +9,7 @@ namespace {
 struct Uniform {
   Vector3 field_W{Vector3::Zero()};
   [[nodiscard]] Vector3 at(const Vector3&) const { return field_W; }
+  [[nodiscard]] Matrix3 derivative(const Vector3&) const { return Matrix3::Zero(); }
   [[nodiscard]] double potential(const Vector3& p_W) const { return -field_W.dot(p_W); }
 };
 

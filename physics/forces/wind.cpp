@@ -6,6 +6,7 @@
 
 #include <pantin/physics/forces/force_target.hpp>
 #include <pantin/physics/forces/medium_drag.hpp>
+#include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/random_draws.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
@@ -26,6 +27,15 @@ class WindLaw final : public ForceLaw {
     const Vector3 u = velocity_(at.t);
     target_.for_each_body(
         at, [&](std::size_t i) { wrenches[i].force += drag_.force(at.kinematics[i].v_WBcm - u); });
+  }
+
+  bool add_derivatives(const BodiesAt& at, WrenchDerivatives& derivatives) const override {
+    if (target_.particles) return true;
+    const Vector3 u = velocity_(at.t);
+    target_.for_each_simulated(at, [&](std::size_t i) {
+      derivatives.add(i, i).force.velocity = drag_.derivative(at.kinematics[i].v_WBcm - u);
+    });
+    return true;
   }
 
   bool depends_on_velocity() const override { return drag_.linear != 0 || drag_.quadratic != 0; }

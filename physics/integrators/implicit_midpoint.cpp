@@ -51,6 +51,13 @@ class ImplicitMidpoint final : public Integrator, SlopeFunction {
                           slope.subspan(coordinates_));
   }
 
+  void list_groups(NumberGroups& groups) override { dynamics_->list_groups(groups); }
+
+  void jacobian(std::span<const double> z, std::span<const double> slope, std::span<const double> change,
+                Jacobian& J) override {
+    dynamics_->jacobian({middle_, z.first(coordinates_), z.subspan(coordinates_), slope, change}, J);
+  }
+
   bool solve(double s) {
     std::copy(y_.begin(), y_.end(), z_.begin());
     evaluate(z_, slope_);

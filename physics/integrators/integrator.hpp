@@ -10,16 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include <pantin/physics/driver.hpp>
+#include <pantin/physics/integrators/jacobian.hpp>
 #include <pantin/physics/integrators/motion_record.hpp>
 
 namespace pantin {
-
-/// A time at which the derivative is wanted, and from which side (at the ends of a step motions may break).
-struct Instant {
-  double t{0};  ///< [s]
-  Side side{Side::After};
-};
 
 /// States at several instants, side by side: number i of stage s stands at [i * at.size() + s].
 struct Stages {
@@ -53,6 +47,11 @@ class Dynamics {
   virtual void derivatives(const Stages& stages);
   /// q' alone at several states; of `stages` q_dot is written, v_dot is not touched.
   virtual void rates(const Stages& stages);
+  /// Which numbers touch each other. Unless told otherwise all do: one group.
+  virtual void list_groups(NumberGroups& groups);
+  /// Fills the blocks of J, which fits the groups of list_groups and is zero. Unless told otherwise by
+  /// one-sided differences: as many derivatives as the greatest group has numbers.
+  virtual void jacobian(const JacobianPoint& point, Jacobian& J);
   /// Upper estimates of how far a unit of each coordinate and velocity moves any body [m or rad per unit], at
   /// any state: what iterations may stop by. Unless told otherwise, one.
   virtual void weights(std::span<double> q_weight, std::span<double> v_weight);
@@ -71,8 +70,23 @@ class Dynamics {
   /// Whether v' depends on v besides through constraints that the caller does not see.
   [[nodiscard]] virtual bool acceleration_depends_on_velocity() const { return true; }
 
+ protected:
+  /// The blocks of these groups by differences.
+  void take_differences(const JacobianPoint& point, std::span<const std::size_t> wanted, Jacobian& J);
+
  private:
+  /// Columns first .. first + count of these groups' blocks.
+  void take_columns(const JacobianPoint& point, std::span<const std::size_t> wanted, std::size_t first,
+                    std::size_t count, Jacobian& J);
+
+  static constexpr std::size_t kSideBySide = 4;  ///< states that differences are taken at together
+  struct Differences {
+    std::vector<std::size_t> wanted{};
+    std::vector<double> state{}, slope{};
+    std::vector<Instant> at{};
+  };
   std::vector<double> one_stage_{};  // work space of derivatives and rates
+  Differences differences_{};        // work space of jacobian
 };
 
 /// What a method that looks back keeps from step to step, as part of State. It counts only where the state

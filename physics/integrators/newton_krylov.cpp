@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pantin/physics/integrators/step_arrays.hpp>
-
 namespace pantin {
 namespace {
 
 constexpr int kMostNewtonSteps = 25;
 constexpr std::size_t kMostColumns = 60;
-constexpr std::size_t kMostDense = 200;  // numbers: a matrix of them costs less than GMRES' passes may
+constexpr std::size_t kMostWhole = 200;  // numbers: a matrix of them costs less than GMRES' passes may
 constexpr double kAtRest = 1e-9;         // change of a last step that does not lower the residual
-constexpr double kSolved = 1e-15;        // of the numbers' size
-constexpr double kGoodEnough = 1e-11;    // where round-off lets nothing improve any more
+constexpr double kNear = 0.1;      // a step that leaves less of the residual than this may be followed by one
+                                   // with the same matrix
+constexpr double kSolved = 1e-15;  // of the numbers' size
+constexpr double kGoodEnough = 1e-11;  // where round-off lets nothing improve any more
 constexpr double kLinearAccuracy = 1e-5;
 constexpr double kDifference = 1e-7;  // about the root of round-off: the best for a one-sided difference
 
@@ -33,14 +33,13 @@ double dot(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-void NewtonKrylov::reserve(std::size_t n) {
+void NewtonKrylov::reserve(SlopeFunction& f, std::size_t n) {
   n_ = n;
   most_columns_ = std::min(n, kMostColumns);
   for (std::vector<double>* x : {&slope_, &residual_, &trial_, &trial_slope_, &step_}) x->resize(n);
-  if (n <= kMostDense) {
-    matrix_.resize(n * (n + 1));
-    return;
-  }
+  f.list_groups(J_.groups);
+  is_whole_ = J_.groups.largest() <= kMostWhole;
+  if (is_whole_) return;
   basis_.resize((most_columns_ + 1) * n);
   hessenberg_.resize((most_columns_ + 1) * most_columns_);
   for (std::vector<double>* x : {&cosine_, &sine_, &right_}) x->resize(most_columns_ + 1);
@@ -55,16 +54,24 @@ double NewtonKrylov::residual(SlopeFunction& f, double s, std::span<const double
 
 bool NewtonKrylov::solve(SlopeFunction& f, double s, std::span<const double> y, std::span<const double> scale,
                          std::span<double> z) {
-  reserve(z.size());
+  reserve(f, z.size());
   double size = residual(f, s, y, scale, z);
+  bool is_near = false;  // the matrix is of a state near enough
   for (int newton = 0; newton < kMostNewtonSteps && size > kSolved; ++newton) {
-    n_ <= kMostDense ? dense_direction(f, s, scale, z) : newton_direction(f, s, scale, z);
+    const bool is_old = is_near;
+    if (is_whole_ && !is_near) factor(f, s, scale, z);
+    is_whole_ ? whole_direction() : krylov_direction(f, s, scale, z);
     const double before = size, change = greatest(step_);
     double part = 1;
     for (int halvings = 0; halvings < 8; ++halvings, part /= 2) {
       for (std::size_t i = 0; i < n_; ++i) trial_[i] = z[i] + part * scale[i] * step_[i];
       size = residual(f, s, y, scale, trial_);
-      if (size < before) break;
+      if (size < before || is_old) break;
+    }
+    is_near = size < kNear * before;
+    if (!(size < before) && is_old) {
+      size = residual(f, s, y, scale, z);  // try again with the matrix of here
+      continue;
     }
     // Where rows are large, round-off keeps the residual up though the numbers do not change any more.
     if (!(size < before)) return change <= kAtRest || before <= kGoodEnough;
@@ -74,44 +81,17 @@ bool NewtonKrylov::solve(SlopeFunction& f, double s, std::span<const double> y, 
   return size <= kGoodEnough;
 }
 
-void NewtonKrylov::dense_direction(SlopeFunction& f, double s, std::span<const double> scale,
-                                   std::span<const double> z) {
-  const std::size_t width = n_ + 1;
-  std::copy(z.begin(), z.end(), trial_.begin());
-  for (std::size_t j = 0; j < n_; ++j) {
-    const double by = kDifference * scale[j];
-    trial_[j] = z[j] + by;
-    f.evaluate(trial_, trial_slope_);
-    trial_[j] = z[j];
-    for (std::size_t i = 0; i < n_; ++i) {
-      matrix_[i * width + j] =
-          (i == j ? 1.0 : 0.0) - s * (trial_slope_[i] - slope_[i]) / by * scale[j] / scale[i];
-    }
-  }
-  for (std::size_t i = 0; i < n_; ++i) matrix_[i * width + n_] = -residual_[i];
+void NewtonKrylov::factor(SlopeFunction& f, double s, std::span<const double> scale,
+                          std::span<const double> z) {
+  for (std::size_t i = 0; i < n_; ++i) trial_[i] = kDifference * scale[i];
+  J_.fit();
+  f.jacobian(z, slope_, trial_, J_);
+  solver_.factor(J_, s, scale);
+}
 
-  // Gauss with rows scaled by their largest entry, so that pivots are chosen by direction, not by stiffness.
-  const auto row = [&](std::size_t i) { return std::span{matrix_}.subspan(i * width, width); };
-  for (std::size_t i = 0; i < n_; ++i) {
-    const double largest = greatest(row(i).first(n_));
-    for (double& entry : row(i)) entry /= largest;
-  }
-  for (std::size_t k = 0; k < n_; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n_; ++i) {
-      if (std::abs(row(i)[k]) > std::abs(row(pivot)[k])) pivot = i;
-    }
-    if (pivot != k) std::swap_ranges(row(k).begin(), row(k).end(), row(pivot).begin());
-    for (std::size_t i = k + 1; i < n_; ++i) {
-      const double factor = row(i)[k] / row(k)[k];
-      if (factor != 0) add_scaled(row(i).subspan(k), -factor, row(k).subspan(k));
-    }
-  }
-  for (std::size_t k = n_; k-- > 0;) {
-    double x = row(k)[n_];
-    for (std::size_t j = k + 1; j < n_; ++j) x -= row(k)[j] * step_[j];
-    step_[k] = x / row(k)[k];
-  }
+void NewtonKrylov::whole_direction() {
+  for (std::size_t i = 0; i < n_; ++i) step_[i] = -residual_[i];
+  solver_.solve(J_, step_);
 }
 
 void NewtonKrylov::apply(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z,
@@ -125,7 +105,7 @@ void NewtonKrylov::apply(SlopeFunction& f, double s, std::span<const double> sca
   }
 }
 
-void NewtonKrylov::newton_direction(SlopeFunction& f, double s, std::span<const double> scale,
+void NewtonKrylov::krylov_direction(SlopeFunction& f, double s, std::span<const double> scale,
                                     std::span<const double> z) {
   // GMRES (Y. Saad, M. Schultz, 1986) with modified Gram-Schmidt and Givens rotations; slope_ belongs to z.
   const double start = std::sqrt(dot(residual_, residual_));

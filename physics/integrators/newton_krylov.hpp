@@ -1,9 +1,11 @@
 #pragma once
-// Private to the integrators. Solves z = y + s f(z) for stiff f without its derivative: Newton's method with
-// directional differences, its linear systems solved whole where there are few numbers, by GMRES where there
-// are many (D. A. Knoll, D. E. Keyes, J. Comp. Phys. 193, 357 (2004), 2.2).
+// Private to the integrators. Solves z = y + s f(z) for stiff f by Newton's method. Its linear systems are
+// solved whole where the numbers that touch each other are few, by GMRES with directional differences where
+// they are many (D. A. Knoll, D. E. Keyes, J. Comp. Phys. 193, 357 (2004), 2.2).
 #include <span>
 #include <vector>
+
+#include <pantin/physics/integrators/group_solver.hpp>
 
 namespace pantin {
 
@@ -12,6 +14,11 @@ class SlopeFunction {
  public:
   virtual ~SlopeFunction() = default;
   virtual void evaluate(std::span<const double> z, std::span<double> slope) = 0;
+  /// As of Dynamics.
+  virtual void list_groups(NumberGroups& groups) = 0;
+  /// df/dz at z, where f is `slope`; `change` is a small one of each number.
+  virtual void jacobian(std::span<const double> z, std::span<const double> slope,
+                        std::span<const double> change, Jacobian& J) = 0;
 };
 
 /// Keeps its work space: solving again for as many numbers allocates nothing.
@@ -23,15 +30,15 @@ class NewtonKrylov {
                            std::span<const double> scale, std::span<double> z);
 
  private:
-  void reserve(std::size_t n);
+  void reserve(SlopeFunction& f, std::size_t n);
   /// z - y - s f(z) over scale, into residual_; its greatest entry.
   double residual(SlopeFunction& f, double s, std::span<const double> y, std::span<const double> scale,
                   std::span<const double> z);
+  /// The whole matrix, at z.
+  void factor(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
   /// The step in units of scale that takes the residual away to first order, into step_.
-  void newton_direction(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
-  /// The same by the whole matrix 1 - s f', for few numbers: rows may then differ in size as much as they
-  /// like.
-  void dense_direction(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
+  void whole_direction();
+  void krylov_direction(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z);
   /// column[k + 1] = (1 - s f') column[k].
   void apply(SlopeFunction& f, double s, std::span<const double> scale, std::span<const double> z,
              std::size_t k);
@@ -39,8 +46,10 @@ class NewtonKrylov {
   [[nodiscard]] std::span<double> basis(std::size_t k) { return std::span{basis_}.subspan(k * n_, n_); }
 
   std::size_t n_{0}, most_columns_{0};
+  bool is_whole_{false};
   std::vector<double> slope_{}, residual_{}, trial_{}, trial_slope_{}, step_{}, basis_{};
-  std::vector<double> matrix_{};  ///< by rows, the right-hand side last
+  Jacobian J_{};
+  GroupSolver solver_{};
   std::vector<double> hessenberg_{}, cosine_{}, sine_{}, right_{};
 };
 

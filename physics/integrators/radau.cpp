@@ -7,8 +7,6 @@
 // Differential Equations II, 2nd ed., IV.5. The last node stands at the end of the step.
 #include <pantin/physics/integrators/radau.hpp>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/integrators/collocation.hpp>
 #include <pantin/physics/integrators/controlled.hpp>
+#include <pantin/physics/integrators/group_solver.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
@@ -49,15 +48,14 @@ class Radau final : public ControlledIntegrator {
     dynamics_ = &dynamics;
     nq_ = q.size();
     n_ = q.size() + v.size();
-    work_.reserve((3 * kStages + 6) * n_);
+    work_.reserve((3 * kStages + 7) * n_);
     for (std::span<double>* stages : {&Y_, &k_, &f_}) *stages = work_.take(n_ * kStages);
-    for (std::span<double>* one : {&y_, &slope_, &trial_, &trial_slope_, &kept_back_, &weight_})
+    for (std::span<double>* one : {&y_, &slope_, &trial_, &change_, &x_, &kept_back_, &weight_})
       *one = work_.take(n_);
     std::fill(kept_back_.begin(), kept_back_.end(), 0.0);
     dynamics.weights(weight_.first(nq_), weight_.subspan(nq_));
     take(q, v);
-    const auto n = static_cast<Eigen::Index>(n_);
-    if (J_.rows() != n) J_.resize(n, n), x_.resize(n);
+    dynamics.list_groups(J_.groups);
     age_ = kStepsPerDerivative;  // what was differentiated in another call may be another system
     factored_for_ = 0;
   }
@@ -93,28 +91,26 @@ class Radau final : public ControlledIntegrator {
     dynamics_->derivative(at, y.first(nq_), y.subspan(nq_), slope.first(nq_), slope.subspan(nq_));
   }
 
-  /// df/dy by one-sided differences at the begin of the step; slope_ is f there.
+  /// df/dy at the begin of the step; slope_ is f there.
   void differentiate(double t, double h) {
-    std::copy(y_.begin(), y_.end(), trial_.begin());
     for (std::size_t j = 0; j < n_; ++j) {
-      const double by =
+      change_[j] =
           kDifference * std::max({std::abs(y_[j]), std::min(std::abs(h * slope_[j]), 1.0), kLeastSize});
-      trial_[j] = y_[j] + by;
-      evaluate({t, Side::After}, trial_, trial_slope_);
-      trial_[j] = y_[j];
-      for (std::size_t i = 0; i < n_; ++i) {
-        J_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = (trial_slope_[i] - slope_[i]) / by;
-      }
     }
+    J_.fit();
+    dynamics_->jacobian({.at = {t, Side::After},
+                         .q = y_.first(nq_),
+                         .v = y_.subspan(nq_),
+                         .slope = slope_,
+                         .change = change_},
+                        J_);
     age_ = 0;
     factored_for_ = 0;
   }
 
   void factor(double h) {
     if (h == factored_for_) return;
-    for (std::size_t i = 0; i < kStages; ++i) {
-      lu_[i].compute(Eigen::MatrixXd::Identity(J_.rows(), J_.cols()) - h * kDiagonal[i] * J_);
-    }
+    for (std::size_t i = 0; i < kStages; ++i) solvers_[i].factor(J_, h * kDiagonal[i]);
     factored_for_ = h;
   }
 
@@ -152,11 +148,10 @@ class Radau final : public ControlledIntegrator {
     dynamics_->derivatives({at_, Y_.first(cut), Y_.subspan(cut), f_.first(cut), f_.subspan(cut)});
     double most = 0;
     for (std::size_t s = 0; s < kStages; ++s) {
-      for (std::size_t i = 0; i < n_; ++i)
-        x_[static_cast<Eigen::Index>(i)] = f_[i * kStages + s] - k_[i * kStages + s];
-      x_ = lu_[s].solve(x_);
+      for (std::size_t i = 0; i < n_; ++i) x_[i] = f_[i * kStages + s] - k_[i * kStages + s];
+      solvers_[s].solve(J_, x_);
       for (std::size_t i = 0; i < n_; ++i) {
-        const double by = x_[static_cast<Eigen::Index>(i)];
+        const double by = x_[i];
         k_[i * kStages + s] += by;
         const double size = (i < nq_ ? 1 : h) * weight_[i] * std::abs(by);
         if (!(size <= most)) most = size;
@@ -196,11 +191,10 @@ class Radau final : public ControlledIntegrator {
   Dynamics* dynamics_{nullptr};
   std::size_t nq_{0}, n_{0};
   WorkSpace work_{};
-  std::span<double> Y_{}, k_{}, f_{}, y_{}, slope_{}, trial_{}, trial_slope_{}, kept_back_{}, weight_{};
+  std::span<double> Y_{}, k_{}, f_{}, y_{}, slope_{}, trial_{}, change_{}, x_{}, kept_back_{}, weight_{};
   std::array<Instant, kStages> at_{};
-  Eigen::MatrixXd J_{};
-  Eigen::VectorXd x_{};
-  std::array<Eigen::PartialPivLU<Eigen::MatrixXd>, kStages> lu_{};
+  Jacobian J_{};
+  std::array<GroupSolver, kStages> solvers_{};
   int age_{0};              ///< steps since J was taken
   double factored_for_{0};  ///< step [s]; 0 = none
 };

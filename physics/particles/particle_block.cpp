@@ -157,6 +157,14 @@ void ParticleBlock::rate(Instant, std::span<const double>, std::span<const doubl
   std::copy(v.begin(), v.end(), q_dot.begin());
 }
 
+void ParticleBlock::list_groups(NumberGroups& groups) {
+  groups.clear();
+  for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) groups.add(k * n_ + i, 1);
+    groups.end_group();
+  }
+}
+
 void ParticleBlock::acceleration(Instant at, std::span<const double> q, std::span<const double> v,
                                  std::span<double> v_dot) {
   ++evaluations;

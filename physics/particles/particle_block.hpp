@@ -52,6 +52,7 @@ class ParticleBlock final : public Dynamics {
             std::span<double> q_dot) override;
   void acceleration(Instant at, std::span<const double> q, std::span<const double> v,
                     std::span<double> v_dot) override;
+  void list_groups(NumberGroups& groups) override;  ///< every particle by itself
   [[nodiscard]] bool acceleration_depends_on_velocity() const override {
     return forces_.depends_on_velocity();
   }

@@ -40,8 +40,9 @@ Dynamics* ParticleManager::begin_update(WorldDynamics& bodies) {
   if (world.systems.empty()) return nullptr;
   world.before = world.bodies.state.kinematics;
   world.deflectors.begin();
-  const bool any = world.coupled.begin(bodies, [&](std::size_t k) { return !world.systems[k].is_tied(); },
-                                       [&](std::size_t k) { return world.systems[k].settings.mass; });
+  const bool any = world.coupled.begin(
+      bodies, [&](std::size_t k) { return !world.systems[k].is_tied(); },
+      [&](std::size_t k) { return world.systems[k].settings.mass; });
   return any ? &world.coupled : nullptr;
 }
 
