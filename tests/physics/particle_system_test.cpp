@@ -209,7 +209,8 @@ TEST(ParticleSystem, SaysWhatIsWrongWithItsSettings) {
       "particle: position is (inf, 0, 0)");
   expect_contract([&] { particles.add_particle(small, {.mass = -1}); }, "particle: mass is -1 kg");
   particles.remove(id);
-  expect_contract([&] { particles.set_velocity(id, {}); }, "particle 0 of particle system 1 is not there");
+  expect_contract([&] { particles.set_velocity(id, Vector3::Zero()); },
+                  "particle 0 of particle system 1 is not there");
   particles.remove(small);
   expect_contract([&] { static_cast<void>(particles.system(small)); },
                   "particle system 1 is null or was removed");
