@@ -176,8 +176,8 @@ class Bridge {
   void set_local(NodeId id, const Affine& M_PN);
   /// Sets a link's value: by the joint if the node is simulated, else by the local matrix. Links of the same
   /// model that mimic it follow, also over several links; one that is set itself stays so until its leader is
-  /// set, unless both are simulated: then its leader follows it. A value that the joint's loop cannot take is an
-  /// error that names the joint and changes nothing.
+  /// set, unless both are simulated: then its leader follows it. A value that the joint's loop cannot take is
+  /// an error that names the joint and changes nothing.
   std::vector<Diagnostic> set_link_value(NodeId id, const LinkValue& value);
 
   /// Whether joints made from now on leave out limits and dry friction of links. Off unless set.

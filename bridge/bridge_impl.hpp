@@ -32,7 +32,7 @@ struct Bridge::Impl {
   std::vector<PlayedEvent> passed{};     ///< since the last advance
   std::unordered_set<NodeId> fast{};     ///< whose fast motion was told of
   std::unordered_map<NodeId, NodeBody> node_bodies{};
-  Followers followers{};  ///< links that mimic others of their model
+  Followers followers{};                           ///< links that mimic others of their model
   std::unordered_map<NodeId, CouplingId> gears{};  ///< of simulated followers, to simulated leaders
   std::unordered_map<NodeId, std::unique_ptr<Binding>> bindings{};
   std::unordered_map<BodyId, Binding*> by_body{};

@@ -24,8 +24,8 @@ bool Bridge::Impl::is_held_by_gear(NodeId follower) const {
 
 bool Bridge::Impl::has_link_joint(NodeId id) const {
   const Binding* binding = find(id);
-  return binding != nullptr && binding->drive == Drive::Physics && binding->tie.kind == JointTie::Kind::Link &&
-         physics.contains(binding->joint);
+  return binding != nullptr && binding->drive == Drive::Physics &&
+         binding->tie.kind == JointTie::Kind::Link && physics.contains(binding->joint);
 }
 
 GearSettings Bridge::Impl::wanted_gear(const Binding& follower,
@@ -114,12 +114,12 @@ void Bridge::Impl::leave_out_unmet(std::vector<NodeId> added, std::vector<Diagno
       return problem.second.code == ProblemCode::OpenLoop;
     });
     if (open == problems.end()) return;
-    auto culprit = std::find_if(added.begin(), added.end(),
-                                [&](NodeId id) { return find(id)->joint == open->first; });
+    auto culprit =
+        std::find_if(added.begin(), added.end(), [&](NodeId id) { return find(id)->joint == open->first; });
     if (culprit == added.end()) culprit = added.end() - 1;
     const auto gear = gears.find(*culprit);
-    notes.push_back(note_on_joint(*culprit, open->second.text + "; it moves on its own",
-                                  open->second.remedy));
+    notes.push_back(
+        note_on_joint(*culprit, open->second.text + "; it moves on its own", open->second.remedy));
     physics.remove(gear->second);
     gears.erase(gear);
     added.erase(culprit);

@@ -51,8 +51,8 @@
 #include <pantin/physics/ids.hpp>
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/gauss.hpp>
-#include <pantin/physics/integrators/radau.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/integrators/radau.hpp>
 #include <pantin/physics/mass_properties.hpp>
 #include <pantin/physics/particle_system.hpp>
 #include <pantin/physics/particles/emitter.hpp>

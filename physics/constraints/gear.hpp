@@ -30,7 +30,6 @@ struct GearSettings {
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const GearSettings& settings);
 /// The same, and whether these joints have the numbers that it couples.
 [[nodiscard]] std::optional<SettingsProblem> problem_with(const GearSettings& settings,
-                                                          const JointDefinition& a,
-                                                          const JointDefinition& b);
+                                                          const JointDefinition& a, const JointDefinition& b);
 
 }  // namespace pantin

@@ -49,8 +49,7 @@ inline void with_model(const Joint& joint, F&& f) {
                             ? (f(model_with<std::tuple_element_t<I, JointModels>>(joint.pitch)), true)
                             : false) ||
                        ...));
-  }
-  (std::make_index_sequence<std::tuple_size_v<JointModels>>{});
+  }(std::make_index_sequence<std::tuple_size_v<JointModels>>{});
 }
 
 }  // namespace pantin

@@ -110,7 +110,7 @@ struct TreeLayout {
   std::vector<std::int32_t> link_of_body{};  ///< by body position; -1 = in no tree
   std::vector<std::int32_t>
       link_of_joint{};  ///< by joint position: the link it ties to its parent; -1 = none
-  std::vector<std::int32_t> closure_of_joint{};  ///< by joint position; -1 = it is not cut
+  std::vector<std::int32_t> closure_of_joint{};     ///< by joint position; -1 = it is not cut
   std::vector<std::int32_t> closure_of_coupling{};  ///< by position; -1 = a joint of it moves nothing
   std::int32_t cut_coupling{-1};  ///< the first of which a joint had to be cut; -1 = none. It is not held.
   std::uint32_t coordinates{0}, rates{0};  ///< of all trees

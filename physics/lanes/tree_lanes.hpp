@@ -39,8 +39,8 @@ struct LinkConstants {
   double R_PJ[9]{}, p_PJ[3]{};
   double mass{0}, moment[3]{}, inertia[6]{};  ///< as in TreeLink; xx yy zz xy xz yz
   double damping[3]{}, armature[3]{};         ///< by rate
-  bool holds{false};  ///< some rate is locked, or has a constant effort
-  bool locked[6]{};   ///< rates that stay zero, with their derivatives
+  bool holds{false};                          ///< some rate is locked, or has a constant effort
+  bool locked[6]{};                           ///< rates that stay zero, with their derivatives
   double effort[6]{};
   double pitch{0};
 };

@@ -100,8 +100,11 @@ TEST(Solve, GivesEachIslandItsOwnSolver) {
   alone.joints.push_back({.name = "hinge", .b = "bob", .axis_W = {0, 1, 0}});
   reference::Problem both = alone;
   both.bodies.insert(both.bodies.begin(), {.name = "slug", .mass = mass, .X_WB = {{5, 0, 0}}});
-  both.forces.push_back(reference::Spring{
-      .a = {.point = {4, 0, 0}}, .b = {.body = "slug"}, .stiffness = 1e6, .damping = 1e6, .rest_length = 0.5});
+  both.forces.push_back(reference::Spring{.a = {.point = {4, 0, 0}},
+                                          .b = {.body = "slug"},
+                                          .stiffness = 1e6,
+                                          .damping = 1e6,
+                                          .rest_length = 0.5});
   for (reference::Problem* problem : {&alone, &both}) problem->samples = {{.t = 0.5}, {.t = 1}};
 
   const SolveResult of_both = solve(both, {.tolerance = 1e-9}), of_bob = solve(alone, {.tolerance = 1e-9});

@@ -55,8 +55,8 @@ struct Gripper {
 };
 
 TEST(MimicGears, CloseAGripperEvenly) {
-  // All three move as one of the reduced inertia I + 2 m 0.1^2, both fingers by the same way; the acceleration
-  // is constant, so that rk4 is exact. Nothing is said that the user need know.
+  // All three move as one of the reduced inertia I + 2 m 0.1^2, both fingers by the same way; the
+  // acceleration is constant, so that rk4 is exact. Nothing is said that the user need know.
   Gripper g;
   const std::vector<Diagnostic> notes = g.s.bridge.hand_over(g.nodes[0], Scope::Subtree);
   EXPECT_TRUE(notes.empty()) << to_string(notes.front());

@@ -162,8 +162,8 @@ TEST(Gear, LoadsTheCrankOfAFourBar) {
   };
   FourBar geared{{0, 1, 2, 3}, 0, false}, fixed{{0, 1, 2, 3}, 0, false};
   const BodyId turning = geared.physics.add(wheel(inertia));
-  const JointId axle = geared.physics.add(
-      joint_here<PivotSettings>(geared.physics, BodyId{}, turning, Pose{}, "axle"));
+  const JointId axle =
+      geared.physics.add(joint_here<PivotSettings>(geared.physics, BodyId{}, turning, Pose{}, "axle"));
   geared.physics.set_joint_value(axle, 0.2);
   static_cast<void>(
       geared.physics.add(GearSettings{.a = geared.joints[0], .b = axle, .ratio = ratio, .offset = 0.2}));
@@ -183,12 +183,10 @@ TEST(Gear, SaysWhatIsWrongWithItsSettings) {
   // Each is refused by name, with a remedy, and by a contract where it is added all the same.
   Wheels w{{1, 1}};
   const BodyId ball = w.physics.add(RigidBodySettings{.name = "ball", .mass = test::lopsided_mass()});
-  const JointId socket =
-      w.physics.add(joint_here<BallSettings>(w.physics, BodyId{}, ball, Pose{}, "socket"));
+  const JointId socket = w.physics.add(joint_here<BallSettings>(w.physics, BodyId{}, ball, Pose{}, "socket"));
   const GearSettings good{.name = "g", .a = w.joints[0], .b = w.joints[1]};
   const auto text = [&](GearSettings settings) {
-    const auto problem =
-        problem_with(settings, w.physics.joint(settings.a), w.physics.joint(settings.b));
+    const auto problem = problem_with(settings, w.physics.joint(settings.a), w.physics.joint(settings.b));
     test::expect_contract([&] { w.physics.add(settings); }, problem ? problem->text : "no problem");
     return problem ? problem->text + "; " + problem->remedy : "";
   };

@@ -14,9 +14,9 @@ namespace {
 TEST(IntegratorCatalogue, MakesEachIntegratorByItsName) {
   // The names of the header, each leading to an object that says the same of itself.
   const std::vector<std::string> names = integrator_names();
-  EXPECT_EQ(names, (std::vector<std::string>{"euler", "semi-implicit-euler", "verlet", "rk4",
-                                             "implicit-midpoint", "dormand-prince", "gauss8", "gauss16",
-                                             "radau"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"euler", "semi-implicit-euler", "verlet", "rk4", "implicit-midpoint",
+                                      "dormand-prince", "gauss8", "gauss16", "radau"}));
   for (const std::string& name : names) {
     const std::unique_ptr<Integrator> integrator = make_integrator(name);
     ASSERT_TRUE(integrator) << name;

@@ -90,8 +90,14 @@ TEST(Islands, AreWhatLawsSayThatTheyCouple) {
   const Case cases[] = {
       {[](Row& r) { r.physics.forces().add(LinearDrag{.coefficient = 1}); }, 3},
       {[](Row& r) { r.physics.forces().add(LinearDrag{.body = r.ids[1], .coefficient = 1}); }, 3},
-      {[](Row& r) { r.physics.forces().add(Wind{.mean = {1, 0, 0}, .linear_drag = 1}); }, 3},
-      {[](Row& r) { r.physics.forces().add(CentralAttraction{.centre = {.p_BQ = {0, 0, 5}}, .mu = 1}); }, 3},
+      {[](Row& r) {
+         r.physics.forces().add(Wind{.mean = {1, 0, 0}, .linear_drag = 1});
+       },
+       3},
+      {[](Row& r) {
+         r.physics.forces().add(CentralAttraction{.centre = {.p_BQ = {0, 0, 5}}, .mu = 1});
+       },
+       3},
       {[](Row& r) { r.physics.forces().add(CentralAttraction{.centre = {r.ids[0]}, .mu = 1}); }, 1},
       {[](Row& r) {
          r.physics.make_static(r.physics.add({.X_WB = {{0, 0, 9}}, .mass = test::lopsided_mass()}));

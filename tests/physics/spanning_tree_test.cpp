@@ -107,8 +107,9 @@ TEST(SpanningTree, KnowsTheRowsOfEveryKind) {
 }
 
 TEST(SpanningTree, CutsCoupledJointsLast) {
-  // Of a ring with a ball, two pivots and a fixed joint the ball would be cut: with the pivots coupled it still
-  // is; without a ball, it is the fixed joint, though it has the most rows. Where all are coupled, one is cut.
+  // Of a ring with a ball, two pivots and a fixed joint the ball would be cut: with the pivots coupled it
+  // still is; without a ball, it is the fixed joint, though it has the most rows. Where all are coupled, one
+  // is cut.
   Graph g{3};
   g.join(-1, 0), g.join(0, 1, JointKind::Ball), g.join(1, 2, JointKind::Fixed), g.join(-1, 2);
   const auto cut = [](const Graph& graph, std::vector<JointCoupling> couplings) {

@@ -144,10 +144,8 @@ TEST(StepGroup, KeepsTheOrderOfEachIntegrator) {
       const Vector3 at{0, 3.0 * static_cast<double>(i), 0};
       ids[i] = physics.add({.X_WB = {at + Vector3::UnitX()}, .mass = m});
       // It moves along the line of the spring, which never turns.
-      physics.forces().add(DampedSpring{.a = {{}, at - Vector3{1e3, 0, 0}},
-                                        .b = {ids[i]},
-                                        .stiffness = 100,
-                                        .rest_length = 1e3});
+      physics.forces().add(DampedSpring{
+          .a = {{}, at - Vector3{1e3, 0, 0}}, .b = {ids[i]}, .stiffness = 100, .rest_length = 1e3});
     }
     physics.set_integrator(ids[0], make_integrator("verlet"));
     physics.set_integrator(ids[1], make_integrator("rk4"));

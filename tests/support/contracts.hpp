@@ -13,7 +13,9 @@ struct ContractError : std::logic_error {
 class ThrowOnContract {
  public:
   ThrowOnContract() : saved_{contract_handler()} {
-    contract_handler() = [](const ContractViolation& v) { throw ContractError{v.what + " [" + v.expression + "]"}; };
+    contract_handler() = [](const ContractViolation& v) {
+      throw ContractError{v.what + " [" + v.expression + "]"};
+    };
   }
   ~ThrowOnContract() { contract_handler() = saved_; }
   ThrowOnContract(const ThrowOnContract&) = delete;

@@ -52,8 +52,8 @@ struct Pendulums {
       m.I_BBcm_B = Vector3{0.05, 0.06, 0.02}.asDiagonal();
       const BodyId bob = physics.add(
           RigidBodySettings{.name = "bob", .X_WB = {{0, 1.0 * i, 0}, Quaternion::Identity()}, .mass = m});
-      joints.push_back(physics.add(joint_here<PivotSettings>(
-          physics, BodyId{}, bob, {{0, 1.0 * i, 0}, facing(Vector3::UnitY())})));
+      joints.push_back(physics.add(
+          joint_here<PivotSettings>(physics, BodyId{}, bob, {{0, 1.0 * i, 0}, facing(Vector3::UnitY())})));
     }
     gear = physics.add(GearSettings{.a = joints[0], .b = joints[1], .ratio = ratio, .offset = offset});
     physics.set_joint_value(joints[0], 1);
