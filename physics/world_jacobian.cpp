@@ -96,7 +96,8 @@ void WorldDynamics::fit_groups() {
 
 void WorldDynamics::jacobian(const JacobianPoint& point, Jacobian& J) {
   JacobianRoom& room = jacobian_;
-  bool are_known = also == nullptr && !free_bodies().empty();
+  bool are_known = also == nullptr && std::any_of(room.is_free.begin(), room.is_free.end(),
+                                                  [](std::uint8_t is_free) { return is_free != 0; });
   if (are_known) {
     place(point.at, point.q, point.v);
     room.derivatives.clear();
