@@ -1,7 +1,6 @@
 #pragma once
 // A lane type: several doubles that are worked on at once, one for each stage of an integrator. It takes the
 // place of double in the solver's templates. Arithmetic is elementwise; nothing branches on a value.
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -72,7 +71,8 @@ inline SineCosine<Lane<Set, N>> sine_cosine(const Lane<Set, N>& angle) {
   const Pack turns = shifted - kRound;
   const Pack r =
       ((x - turns * 0x1.921fb54400000p0) - turns * 0x1.0b4611a600000p-34) - turns * 0x1.3198a2e037073p-69;
-  const Bits quadrant = std::bit_cast<Bits>(shifted);
+  Bits quadrant;  // not by std::bit_cast, a function of plain vectors, which sources would share
+  std::memcpy(&quadrant, &shifted, sizeof(Bits));
   const Pack z = r * r;
   const Pack ps =
       r + r * z *
