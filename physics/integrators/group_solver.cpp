@@ -12,6 +12,19 @@ constexpr double kKeepsDiagonal = 0.1;  // of the greatest entry below
 
 }  // namespace
 
+template <class Visit>
+void GroupSolver::for_each_part(const Jacobian& J, const Visit& visit) {
+  std::size_t entries = 0, first = 0;
+  for (std::size_t g = 0; g < J.groups.size(); ++g) {
+    const std::span<const std::uint32_t> numbers = J.groups.group(g);
+    const std::size_t k = numbers.size();
+    visit(Part{k, std::span{matrices_}.subspan(entries, k * k), std::span{rows_}.subspan(first, k),
+               std::span{pivots_}.subspan(first, k)},
+          numbers);
+    entries += k * k, first += k;
+  }
+}
+
 void GroupSolver::factor(const Jacobian& J, double s, std::span<const double> scale) {
   inverse_scale_.resize(scale.size());
   for (std::size_t i = 0; i < scale.size(); ++i) inverse_scale_[i] = 1 / scale[i];
@@ -19,24 +32,19 @@ void GroupSolver::factor(const Jacobian& J, double s, std::span<const double> sc
   rows_.resize(J.groups.numbers());
   pivots_.resize(J.groups.numbers());
   x_.resize(J.groups.largest());
-  std::size_t at = 0, of_numbers = 0;
-  for (std::size_t g = 0; g < J.groups.size(); ++g) {
-    const std::span<const std::uint32_t> numbers = J.groups.group(g);
-    const std::span<const double> block = J.block(g);
-    const std::size_t k = numbers.size();
-    const Part part{k, std::span{matrices_}.subspan(at, k * k), std::span{rows_}.subspan(of_numbers, k),
-                    std::span{pivots_}.subspan(of_numbers, k)};
-    at += k * k, of_numbers += k;
-    for (std::size_t j = 0; j < k; ++j) {
-      double* column = part.matrix.data() + j * k;
+  std::size_t g = 0;
+  for_each_part(J, [&](const Part& part, std::span<const std::uint32_t> numbers) {
+    const std::span<const double> block = J.block(g++);
+    for (std::size_t j = 0; j < part.k; ++j) {
+      double* column = part.matrix.data() + j * part.k;
       const double by = -s * (scale.empty() ? 1 : scale[numbers[j]]);
-      for (std::size_t i = 0; i < k; ++i) column[i] = by * block[j * k + i];
-      for (std::size_t i = 0; !scale.empty() && i < k; ++i) column[i] *= inverse_scale_[numbers[i]];
+      for (std::size_t i = 0; i < part.k; ++i) column[i] = by * block[j * part.k + i];
+      for (std::size_t i = 0; !scale.empty() && i < part.k; ++i) column[i] *= inverse_scale_[numbers[i]];
       column[j] += 1;
     }
     scale_rows(part);
     decompose(part);
-  }
+  });
 }
 
 void GroupSolver::scale_rows(const Part& part) {
@@ -88,18 +96,12 @@ void GroupSolver::substitute(const Part& part, std::span<double> x) {
 }
 
 void GroupSolver::solve(const Jacobian& J, std::span<double> x) {
-  std::size_t at = 0, of_numbers = 0;
-  for (std::size_t g = 0; g < J.groups.size(); ++g) {
-    const std::span<const std::uint32_t> numbers = J.groups.group(g);
-    const std::size_t k = numbers.size();
-    const Part part{k, std::span{matrices_}.subspan(at, k * k), std::span{rows_}.subspan(of_numbers, k),
-                    std::span{pivots_}.subspan(of_numbers, k)};
-    at += k * k, of_numbers += k;
-    const std::span<double> own = std::span{x_}.first(k);
-    for (std::size_t i = 0; i < k; ++i) own[i] = x[numbers[i]] * part.row[i];
+  for_each_part(J, [&](const Part& part, std::span<const std::uint32_t> numbers) {
+    const std::span<double> own = std::span{x_}.first(part.k);
+    for (std::size_t i = 0; i < part.k; ++i) own[i] = x[numbers[i]] * part.row[i];
     substitute(part, own);
-    for (std::size_t i = 0; i < k; ++i) x[numbers[i]] = own[i];
-  }
+    for (std::size_t i = 0; i < part.k; ++i) x[numbers[i]] = own[i];
+  });
 }
 
 }  // namespace pantin

@@ -29,6 +29,9 @@ class GroupSolver {
     std::span<double> row{};     ///< one over the greatest entry of each
     std::span<std::uint32_t> pivot{};
   };
+  /// Calls visit(part, numbers of the group) group by group.
+  template <class Visit>
+  void for_each_part(const Jacobian& J, const Visit& visit);
   static void scale_rows(const Part& part);
   static void decompose(const Part& part);
   static void substitute(const Part& part, std::span<double> x);

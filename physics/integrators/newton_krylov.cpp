@@ -10,10 +10,9 @@ constexpr int kMostNewtonSteps = 25;
 constexpr std::size_t kMostColumns = 60;
 constexpr std::size_t kMostWhole = 200;  // numbers: a matrix of them costs less than GMRES' passes may
 constexpr double kAtRest = 1e-9;         // change of a last step that does not lower the residual
-constexpr double kNear = 0.1;      // a step that leaves less of the residual than this may be followed by one
-                                   // with the same matrix
-constexpr double kSolved = 1e-15;  // of the numbers' size
-constexpr double kGoodEnough = 1e-11;  // where round-off lets nothing improve any more
+constexpr double kNear = 0.1;            // of the residual left: the next step may take the same matrix
+constexpr double kSolved = 1e-15;        // of the numbers' size
+constexpr double kGoodEnough = 1e-11;    // where round-off lets nothing improve any more
 constexpr double kLinearAccuracy = 1e-5;
 constexpr double kDifference = 1e-7;  // about the root of round-off: the best for a one-sided difference
 
@@ -68,7 +67,7 @@ bool NewtonKrylov::solve(SlopeFunction& f, double s, std::span<const double> y, 
       size = residual(f, s, y, scale, trial_);
       if (size < before || is_old) break;
     }
-    is_near = size < kNear * before;
+    is_near = is_whole_ && size < kNear * before;
     if (!(size < before) && is_old) {
       size = residual(f, s, y, scale, z);  // try again with the matrix of here
       continue;
