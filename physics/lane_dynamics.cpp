@@ -1,44 +1,15 @@
 // Stages of the world side by side: trees in the lane kernel, free bodies in lanes, force laws stage after
 // stage unless all they do is the same acceleration for everybody.
 #include <algorithm>
-#include <cstdint>
 
 #include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/world_dynamics.hpp>
 
 namespace pantin {
 
-namespace {
-
-constexpr std::size_t kFreeCoordinates = 7, kFreeVelocities = 6, kAlignment = 8;  // numbers
-
-/// The first number of `room` on a boundary of 64 bytes.
-double* aligned(std::vector<double>& room) {
-  const auto address = reinterpret_cast<std::uintptr_t>(room.data());
-  return room.data() + (64 - address % 64) % 64 / sizeof(double);
-}
-
-/// R, p, v, w, alpha, a of a motion at one lane, in the order of lanes::Task.
-void put_motion(const RigidMotion& motion, std::size_t lanes, double* out) {
-  const Matrix3 R = motion.X_AB.rotation();
-  for (int k = 0; k < 9; ++k) out[static_cast<std::size_t>(k) * lanes] = R(k / 3, k % 3);
-  const Vector3* vectors[] = {&motion.X_AB.p, &motion.w_AB, &motion.v_AB, &motion.alpha_AB, &motion.a_AB};
-  double* to = out + 9 * lanes;
-  for (const Vector3* vector : vectors) {
-    for (int k = 0; k < 3; ++k, to += lanes) *to = (*vector)[k];
-  }
-}
-
-void take_stage(std::span<const double> all, std::size_t stages, std::size_t stage,
-                std::vector<double>& one) {
-  for (std::size_t i = 0; i < one.size(); ++i) one[i] = all[i * stages + stage];
-}
-
-}  // namespace
-
 void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
   if (lane_.fits) return;
-  lanes::fill_constants(layout_, bodies_, lane_.links, lane_.free);
+  std::int32_t given = lanes::fill_constants(layout_, bodies_, lane_.links, lane_.free);
   for (std::size_t i = 0; kernel_.holds() && i < lane_.links.size(); ++i) {
     lanes::LinkConstants& link = lane_.links[i];
     link.holds = true;
@@ -50,18 +21,15 @@ void WorldDynamics::fit_lanes(const lanes::Kernel& kernel) {
     });
   }
   const auto count = static_cast<std::size_t>(kernel.lanes);
-  std::size_t given = 0, largest = 0;
-  for (const lanes::LinkConstants& link : lane_.links) {
-    given = std::max(
-        {given, static_cast<std::size_t>(link.ground + 1), static_cast<std::size_t>(link.given + 1)});
-  }
+  std::size_t largest = 0;
   for (const Tree& tree : layout_.trees) {
     largest =
         std::max(largest, kernel.work_size(tree.links_end - tree.links_begin, tree.v_end - tree.v_begin));
   }
-  lane_.motions.resize(given * lanes::kMotionNumbers * count);
+  if (!layout_.closures.empty()) given = fit_loops(kernel, given);
+  lane_.motions.resize(static_cast<std::size_t>(given) * lanes::kMotionNumbers * count);
   lane_.wrenches.resize(lane_.links.size() * 6 * count);
-  lane_.work.resize(largest + kAlignment);
+  lane_.work.resize(largest);
   lane_.q.resize(q_.size());
   lane_.v.resize(v_.size());
   lane_.fits = true;
@@ -101,12 +69,10 @@ void WorldDynamics::rates(const Stages& stages) {
 void WorldDynamics::derivatives(const Stages& stages) {
   const std::size_t count = stages.at.size();
   const lanes::Kernel* kernel = lanes::kernel_for_stages(count);
-  // Loops couple the rates of a tree stage by stage.
-  const bool in_lanes = uses_lanes && kernel != nullptr && layout_.closures.empty();
-  if (!in_lanes) return Dynamics::derivatives(stages);
+  if (!uses_lanes || kernel == nullptr) return Dynamics::derivatives(stages);
   rates(stages);
   evaluations += static_cast<int>(count);
-  const bool plain = also == nullptr && !bodies_.state.loaded;
+  const bool plain = also == nullptr && !bodies_.state.loaded && !loads_.on_closures();
   const std::optional<Vector3> uniform = plain ? laws().uniform_acceleration() : std::nullopt;
   if (uniform) free_forces(stages, *uniform);
   loads_.write_efforts(layout_, stages.at,
@@ -136,23 +102,27 @@ void WorldDynamics::given_motions(const Stages& stages, std::size_t first, std::
         return lane_.motions.data() + static_cast<std::size_t>(number) * lanes::kMotionNumbers * count + lane;
       };
       if (c.ground >= 0) {
-        const auto body = static_cast<std::size_t>(link.ground);
-        put_motion(bodies_.kinds[body] == BodyKind::Animated ? bodies_.drivers[body]->motion(at.t, at.side)
-                                                             : grounds_[body],
-                   count, to(c.ground));
+        lanes::put_motion(motion_of_ground(link.ground, at), count, to(c.ground));
       }
       if (c.given >= 0) {
         const RigidMotion motion = link.driver->motion(at.t, at.side);
-        put_motion(link.reversed ? inverse(motion) : motion, count, to(c.given));
+        lanes::put_motion(link.reversed ? inverse(motion) : motion, count, to(c.given));
       }
     }
   }
+}
+
+RigidMotion WorldDynamics::motion_of_ground(std::int32_t place, Instant at) const {
+  const auto body = static_cast<std::size_t>(place);
+  return bodies_.kinds[body] == BodyKind::Animated ? bodies_.drivers[body]->motion(at.t, at.side)
+                                                   : grounds_[body];
 }
 
 void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,
                                const std::optional<Vector3>& uniform) {
   const std::size_t count = stages.at.size(), lanes = static_cast<std::size_t>(kernel.lanes);
   if (!lane_.motions.empty()) given_motions(stages, first, lanes);
+  if (!layout_.closures.empty()) given_loop_motions(stages, first, lanes);
   lanes::Task task{.links = lane_.links.data(),
                    .q = stages.q.data() + (stages.q.size() / count - layout_.coordinates) * count,
                    .v = stages.v.data() + (stages.v.size() / count - layout_.rates) * count,
@@ -161,7 +131,7 @@ void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel
                    .first = first,
                    .motions = lane_.motions.data(),
                    .efforts = efforts_.data(),
-                   .work = aligned(lane_.work)};
+                   .work = lane_.work.data()};
   if (uniform) std::copy_n(uniform->data(), 3, task.gravity);
   if (!uniform) {
     std::fill(lane_.wrenches.begin(), lane_.wrenches.end(), 0.0);
@@ -178,13 +148,25 @@ void WorldDynamics::lane_group(const Stages& stages, const lanes::Kernel& kernel
     for (std::uint32_t l = tree.links_begin; !uniform && l < tree.links_end; ++l) {
       kernel.add_wrench(task, l, lane_.wrenches.data() + l * 6 * lanes);
     }
+    if (!tree.has_closures()) {
+      kernel.solve(task);
+      continue;
+    }
+    const lanes::LoopTask loop = loop_task(tree);
+    kernel.trace(task, loop);
     kernel.solve(task);
+    loop_margin = std::min(loop_margin, kernel.close(task, loop));
   }
 }
 
+void WorldDynamics::take_stage(const Stages& stages, std::size_t stage) {
+  const std::size_t count = stages.at.size();
+  for (std::size_t i = 0; i < lane_.q.size(); ++i) lane_.q[i] = stages.q[i * count + stage];
+  for (std::size_t i = 0; i < lane_.v.size(); ++i) lane_.v[i] = stages.v[i * count + stage];
+}
+
 void WorldDynamics::place_lane(const Stages& stages, std::size_t stage) {
-  take_stage(stages.q, stages.at.size(), stage, lane_.q);
-  take_stage(stages.v, stages.at.size(), stage, lane_.v);
+  take_stage(stages, stage);
   place_grounds(stages.at[stage]);
   place_free(lane_.q, lane_.v, {});
   place_trees(stages.at[stage], lane_.q, lane_.v);
@@ -198,17 +180,28 @@ void WorldDynamics::collect_wrenches(const Stages& stages, std::size_t first, st
       *out = k < 3 ? wrenches_[i].force[k] : wrenches_[i].torque[k - 3];
   }
   for (std::size_t l = 0; l < layout_.links.size(); ++l) {
-    const LinkWork& work = kernel_.link(static_cast<std::int32_t>(l));
-    const Vector3 p{work.p.x, work.p.y, work.p.z};
-    double* to = lane_.wrenches.data() + l * 6 * count + lane;
     for (std::uint32_t m = layout_.links[l].members_begin; m < layout_.links[l].members_end; ++m) {
       const std::uint32_t i = layout_.members[m].body;
-      const Vector3 torque = wrenches_[i].torque + (stage_[i].p_WBcm - p).cross(wrenches_[i].force);
-      for (std::size_t k = 0; k < 3; ++k) {
-        to[k * count] += wrenches_[i].force[static_cast<Eigen::Index>(k)];
-        to[(3 + k) * count] += torque[static_cast<Eigen::Index>(k)];
-      }
+      put_wrench(l, lane, count, wrenches_[i].force, wrenches_[i].torque, stage_[i].p_WBcm);
     }
+  }
+  for (const Tree& tree : layout_.trees) {
+    loads_.on_cut_joints(
+        layout_, tree, kernel_, grounds_, stages.at[first + lane], cut_near_,
+        [&](std::int32_t link, const Vector3& force, const Vector3& torque, const Vector3& p_WQ) {
+          put_wrench(static_cast<std::size_t>(link), lane, count, force, torque, p_WQ);
+        });
+  }
+}
+
+void WorldDynamics::put_wrench(std::size_t link, std::size_t lane, std::size_t count, const Vector3& force,
+                               const Vector3& torque, const Vector3& p_WQ) {
+  const LinkWork& work = kernel_.link(static_cast<std::int32_t>(link));
+  const Vector3 about_origin = torque + (p_WQ - Vector3{work.p.x, work.p.y, work.p.z}).cross(force);
+  double* to = lane_.wrenches.data() + link * 6 * count + lane;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    to[static_cast<std::size_t>(k) * count] += force[k];
+    to[static_cast<std::size_t>(3 + k) * count] += about_origin[k];
   }
 }
 

@@ -117,7 +117,10 @@ void WorldDynamics::evaluate(Instant at, std::span<const double> q, std::span<co
                            stage_[i].p_WBcm);
       }
     }
-    if (loads_.on_closures()) loads_.add_to_cut_joints(layout_, tree, kernel_, grounds_, at, cut_near_);
+    loads_.on_cut_joints(layout_, tree, kernel_, grounds_, at, cut_near_,
+                         [this](auto link, const Vector3& force, const Vector3& torque, const Vector3& p_WQ) {
+                           kernel_.add_wrench(link, force, torque, p_WQ);
+                         });
     kernel_.eliminate(layout_, tree, v.last(layout_.rates), efforts_);
     kernel_.substitute(layout_, tree, v_dot.last(layout_.rates));
     if (!tree.has_closures()) continue;

@@ -10,6 +10,7 @@
 #include <pantin/physics/forces/force_manager.hpp>
 #include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
+#include <pantin/physics/lanes/loop_lanes.hpp>
 #include <pantin/physics/lanes/tree_lanes.hpp>
 #include <pantin/physics/world_part.hpp>
 
@@ -188,15 +189,32 @@ class WorldDynamics final : public Dynamics {
     bool fits{false};  ///< to the bodies and trees of now
     std::vector<lanes::LinkConstants> links{};
     std::vector<lanes::FreeConstants> free{};
-    std::vector<double> motions{}, wrenches{}, q{}, v{}, work{};
+    std::vector<double> motions{}, wrenches{}, q{}, v{};
+    lanes::AlignedRoom work{};
+    // Where there are closures:
+    std::vector<lanes::ClosureConstants> closures{};
+    std::vector<double> couplings{};
+    lanes::AlignedRoom loop_work{};
+    lanes::LoopSizes loop_sizes{};
   };
   void fit_lanes(const lanes::Kernel& kernel);
   void lane_group(const Stages& stages, const lanes::Kernel& kernel, std::size_t first,
                   const std::optional<Vector3>& uniform);
   void given_motions(const Stages& stages, std::size_t first, std::size_t count);
+  [[nodiscard]] RigidMotion motion_of_ground(std::int32_t body, Instant at) const;
+  /// A stage's numbers into the room for one.
+  void take_stage(const Stages& stages, std::size_t stage);
   void place_lane(const Stages& stages, std::size_t stage);
   void collect_wrenches(const Stages& stages, std::size_t first, std::size_t lane, std::size_t count);
+  void put_wrench(std::size_t link, std::size_t lane, std::size_t count, const Vector3& force,
+                  const Vector3& torque, const Vector3& p_WQ);
   void free_forces(const Stages& stages, const Vector3& g_W);
+  // Their closures (lane_loops.cpp).
+  /// The given motions of links count `given`; returns how many there are with those of closures.
+  [[nodiscard]] std::int32_t fit_loops(const lanes::Kernel& kernel, std::int32_t given);
+  void given_loop_motions(const Stages& stages, std::size_t first, std::size_t count);
+  void coupling_numbers(const Stages& stages, std::size_t first, std::size_t count);
+  [[nodiscard]] lanes::LoopTask loop_task(const Tree& tree);
   LaneRoom lane_{};
   OpenLoop open_loop_{};
 

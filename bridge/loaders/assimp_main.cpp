@@ -106,10 +106,14 @@ std::string answer(pantin::Loaded<pantin::Model>& loaded, const Job& job) {
 
 }  // namespace
 
-/// Under the address sanitizer a crash stays a signal, and what assimp forgets to free is its own.
+/// Under sanitizers a crash stays a signal, and what assimp forgets to free is its own.
 extern "C" const char* __asan_default_options();   // NOLINT: the sanitizer's name
 extern "C" const char* __asan_default_options() {  // NOLINT
   return "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_abort=0:abort_on_error=1:detect_leaks=0";
+}
+extern "C" const char* __tsan_default_options();   // NOLINT
+extern "C" const char* __tsan_default_options() {  // NOLINT
+  return "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_abort=0";
 }
 
 int main(int argc, char** argv) {

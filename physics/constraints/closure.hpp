@@ -19,18 +19,14 @@
 #include <span>
 
 #include <pantin/physics/constraints/articulated.hpp>
+#include <pantin/physics/constraints/closure_rows.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 
 namespace pantin {
 
 constexpr std::uint32_t kMostRows = 6;  ///< besides those of rotors
 
-/// A frame's motion in the world.
-struct FrameMotion {
-  kernel::Mat3<double> R{};
-  kernel::Vec3<double> p{}, w{}, v{};
-  kernel::Vec3<double> al{}, a{};
-};
+using FrameMotion = kernel::MovingFrame<double>;
 
 struct ClosureRow {
   Articulated::RowWrench wrench{};  ///< for a multiplier of one, at Jb's origin
@@ -66,6 +62,8 @@ struct ClosureMotion {
 
 /// The rows of a closure, those of rotors last.
 void write_rows(const Closure& closure, const ClosureMotion& motion, std::span<ClosureRow> rows);
+
+[[nodiscard]] kernel::Rotors rotors_of(const Closure& closure);
 
 /// Jb in Ja, in axes of Ja.
 struct RelativeMotion {

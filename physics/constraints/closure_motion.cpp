@@ -16,27 +16,8 @@ Mat3<double> mat(const Quaternion& q) {
   return kernel::rotation_of(c);
 }
 
-/// Motion of a frame fixed at (R_LJ, p_LJ) in another.
-FrameMotion carried(const FrameMotion& L, const Mat3<double>& R_LJ, const Vec& p_LJ) {
-  const Vec r = L.R * p_LJ, w_x_r = cross(L.w, r);
-  FrameMotion J;
-  J.R = L.R * R_LJ;
-  J.p = L.p + r;
-  J.w = L.w, J.al = L.al;
-  J.v = L.v + w_x_r;
-  J.a = L.a + cross(L.al, r) + cross(L.w, w_x_r);
-  return J;
-}
-
-/// Motion of B in the world from that of A and of B in A.
-FrameMotion composed(const FrameMotion& A, const RigidMotion& B) {
-  FrameMotion out = carried(A, mat(B.X_AB.q), vec(B.X_AB.p));
-  const Vec v = A.R * vec(B.v_AB), w = A.R * vec(B.w_AB);
-  out.w += w;
-  out.v += v;
-  out.al += cross(A.w, w) + A.R * vec(B.alpha_AB);
-  out.a += 2.0 * cross(A.w, v) + A.R * vec(B.a_AB);
-  return out;
+FrameMotion frame(const RigidMotion& m) {
+  return {mat(m.X_AB.q), vec(m.X_AB.p), vec(m.w_AB), vec(m.v_AB), vec(m.alpha_AB), vec(m.a_AB)};
 }
 
 FrameMotion motion_of(const ClosureEnd& end, const Articulated& kernel,
@@ -47,11 +28,9 @@ FrameMotion motion_of(const ClosureEnd& end, const Articulated& kernel,
     const LinkWork& work = kernel.link(end.link);
     L = {work.R, work.p, work.w, work.v, work.al + work.dal, work.a + work.da};
   } else if (end.ground >= 0) {
-    const RigidMotion& ground = grounds[static_cast<std::size_t>(end.ground)];
-    L = {mat(ground.X_AB.q), vec(ground.X_AB.p),   vec(ground.w_AB),
-         vec(ground.v_AB),   vec(ground.alpha_AB), vec(ground.a_AB)};
+    L = frame(grounds[static_cast<std::size_t>(end.ground)]);
   }
-  return carried(L, end.R_LJ, end.p_LJ);
+  return kernel::carried(L, end.R_LJ, end.p_LJ);
 }
 
 }  // namespace
@@ -59,7 +38,8 @@ FrameMotion motion_of(const ClosureEnd& end, const Articulated& kernel,
 ClosureMotion motion_of(const Closure& closure, const Articulated& kernel,
                         std::span<const RigidMotion> grounds, Instant at) {
   ClosureMotion motion{motion_of(closure.a, kernel, grounds), motion_of(closure.b, kernel, grounds)};
-  if (closure.driver != nullptr) motion.a = composed(motion.a, closure.driver->motion(at.t, at.side));
+  if (closure.driver != nullptr)
+    motion.a = kernel::composed(motion.a, frame(closure.driver->motion(at.t, at.side)));
   return motion;
 }
 
@@ -71,10 +51,7 @@ void measure(const Closure& closure, const RelativeMotion& B, double* q) {
 RelativeMotion relative(const ClosureMotion& m) {
   const FrameMotion &a = m.a, &b = m.b;
   RelativeMotion B;
-  for (int j = 0; j < 3; ++j) {
-    const Vec column = transposed_times(a.R, b.R.column(j));
-    B.R.m[j] = column.x, B.R.m[3 + j] = column.y, B.R.m[6 + j] = column.z;
-  }
+  B.R = kernel::relative_rotation(a.R, b.R);
   const Vec d = b.p - a.p;
   B.p = transposed_times(a.R, d);
   B.w = transposed_times(a.R, b.w - a.w);

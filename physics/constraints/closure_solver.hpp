@@ -8,18 +8,16 @@
 // D the joints' own inertia. Rows of rotors add 1 / armature on the diagonal: they act by what they resist.
 // Rows are scaled to what W_ii would be were every lever at its best (not to W_ii, which vanishes where a
 // loop is singular). Loops may be redundant and pass through singular positions, so W need not have an
-// inverse: the proximal solve
-//
-//   K = W + mu 1,  lambda = K^-1 b,  then four times lambda += K^-1 (b - W lambda)
-//
-// (N. Parikh, S. Boyd, Proximal Algorithms, 2014, 4.1; J. Carpentier, R. Budhiraja, N. Mansard, Proximal and
-// Sparse Resolution of Constrained Dynamic Equations, RSS 2021) leaves a part (mu / (mu + s))^5 of what
-// belongs to a singular value s of W; the motion is unique, the multipliers are the smallest. W is stored and
-// factored within its envelope, so that a chain of loops costs what its loops cost.
+// inverse: the proximal solve (proximal.hpp; N. Parikh, S. Boyd, Proximal Algorithms, 2014, 4.1; J.
+// Carpentier, R. Budhiraja, N. Mansard, Proximal and Sparse Resolution of Constrained Dynamic Equations, RSS
+// 2021) leaves a part (mu / (mu + s))^5 of what belongs to a singular value s of W; the motion is unique, the
+// multipliers are the smallest. W is stored and factored within its envelope, so that a chain of loops costs
+// what its loops cost.
 #include <vector>
 
 #include <pantin/physics/constraints/closure.hpp>
 #include <pantin/physics/constraints/coupling_row.hpp>
+#include <pantin/physics/constraints/row_layout.hpp>
 
 namespace pantin {
 
@@ -30,6 +28,7 @@ enum class ClosureLevel { Position, Velocity, Acceleration };
 class ClosureSolver {
  public:
   void resize(const TreeLayout& layout);
+  [[nodiscard]] const RowLayout& row_layout() const noexcept { return at_; }
 
   /// Rows of the tree as placed, accelerations as last substituted; `motion` is what it was placed with.
   void measure(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
@@ -58,30 +57,20 @@ class ClosureSolver {
 
   [[nodiscard]] std::span<const ClosureRow> rows(std::uint32_t closure) const;
   /// Generalised force by which a coupling acts on its b, by the last multipliers [N m] or [N].
-  [[nodiscard]] double effort(std::uint32_t closure) const { return multiplier_[places_[closure].row]; }
+  [[nodiscard]] double effort(std::uint32_t closure) const { return multiplier_[at_.places[closure].row]; }
   /// Force at Jb's origin and torque on B of a closure by the last multipliers.
   [[nodiscard]] ClosureWrench wrench(std::uint32_t closure) const;
 
  private:
   void assemble(const TreeLayout& layout, const Tree& tree, const Articulated& kernel);
   void assemble_block(const TreeLayout& layout, std::uint32_t c, std::uint32_t d, const Articulated& kernel);
-  void factor_envelope(std::uint32_t begin, std::uint32_t end);
-  void substitute_envelope(std::uint32_t begin, std::uint32_t end, std::vector<double>& x) const;
-  void multiply(std::uint32_t begin, std::uint32_t end, const std::vector<double>& x,
-                std::vector<double>& out) const;
+  [[nodiscard]] Proximal<double> proximal(const Tree& tree);
 
-  struct Place {
-    std::uint32_t row{0};   ///< first row
-    std::size_t y{0};       ///< first number of Y
-    std::uint32_t left{0};  ///< first row of its tree that shares a link with it
-  };
-  std::vector<Place> places_{};        ///< by closure, and one behind the last
-  std::vector<std::size_t> row_at_{};  ///< by row: where W(row, left) stands
-  std::vector<std::uint32_t> left_{};  ///< by row
+  RowLayout at_{};
   std::vector<ClosureRow> rows_{};
   std::vector<double> y_{}, W_{}, K_{};
   std::vector<Articulated::Passing> passing_{};
-  std::vector<double> scale_{}, b_{}, lambda_{}, residual_{}, multiplier_{}, turned_{};
+  std::vector<double> scale_{}, mu_{}, b_{}, lambda_{}, residual_{}, multiplier_{}, turned_{};
 };
 
 }  // namespace pantin

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pantin/physics/constraints/joint_models.hpp>
-
 namespace pantin {
 
 namespace {
@@ -138,22 +136,6 @@ ClosureWrench JointLoads::on_closure(const TreeLayout& layout, std::uint32_t c, 
     }
   });
   return wrench;
-}
-
-void JointLoads::add_to_cut_joints(const TreeLayout& layout, const Tree& tree, Articulated& kernel,
-                                   std::span<const RigidMotion> grounds, Instant at,
-                                   std::span<const double> near) const {
-  for (const Load& load : closures_) {
-    if (load.place < tree.closures_begin || load.place >= tree.closures_end) continue;
-    const Closure& closure = layout.closures[load.place];
-    const ClosureMotion motion = motion_of(closure, kernel, grounds, at);
-    const ClosureWrench on_b =
-        on_closure(layout, load.place, motion, at, near.data() + std::size_t{kMostCoordinates} * load.place);
-    const Vec &f = on_b.force, &t = on_b.torque, &p = motion.b.p;
-    const Vector3 force{f.x, f.y, f.z}, torque{t.x, t.y, t.z}, p_WJ{p.x, p.y, p.z};
-    if (closure.b.link >= 0) kernel.add_wrench(closure.b.link, force, torque, p_WJ);
-    if (closure.a.link >= 0) kernel.add_wrench(closure.a.link, -force, -torque, p_WJ);
-  }
 }
 
 double JointLoads::next_break(double t) const {

@@ -13,6 +13,7 @@
 
 #include <pantin/physics/constraints/closure.hpp>
 #include <pantin/physics/constraints/joint.hpp>
+#include <pantin/physics/constraints/joint_models.hpp>
 #include <pantin/physics/constraints/motor.hpp>
 #include <pantin/physics/constraints/tree.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
@@ -48,11 +49,24 @@ class JointLoads {
   /// `near`: the numbers of the joint not long ago, which tell its turns. Nothing where it bears no load.
   [[nodiscard]] ClosureWrench on_closure(const TreeLayout& layout, std::uint32_t closure,
                                          const ClosureMotion& motion, Instant at, const double* near) const;
-  /// Adds the same of all cut joints to a tree as placed and loaded. `near` of all closures, kMostCoordinates
-  /// for each.
-  void add_to_cut_joints(const TreeLayout& layout, const Tree& tree, Articulated& kernel,
-                         std::span<const RigidMotion> grounds, Instant at,
-                         std::span<const double> near) const;
+  /// Calls act(link, force, torque, p_WQ) for what the same of all cut joints of a tree does to its links.
+  /// `near` of all closures, kMostCoordinates for each.
+  template <class Act>
+  void on_cut_joints(const TreeLayout& layout, const Tree& tree, const Articulated& kernel,
+                     std::span<const RigidMotion> grounds, Instant at, std::span<const double> near,
+                     Act&& act) const {
+    const auto eigen = [](const kernel::Vec3<double>& x) { return Vector3{x.x, x.y, x.z}; };
+    for (const Load& load : closures_) {
+      if (load.place < tree.closures_begin || load.place >= tree.closures_end) continue;
+      const Closure& closure = layout.closures[load.place];
+      const ClosureMotion motion = motion_of(closure, kernel, grounds, at);
+      const ClosureWrench on_b = on_closure(layout, load.place, motion, at,
+                                            near.data() + std::size_t{kMostCoordinates} * load.place);
+      const Vector3 force = eigen(on_b.force), torque = eigen(on_b.torque), p_WJ = eigen(motion.b.p);
+      if (closure.b.link >= 0) act(closure.b.link, force, torque, p_WJ);
+      if (closure.a.link >= 0) act(closure.a.link, Vector3{-force}, Vector3{-torque}, p_WJ);
+    }
+  }
   /// The first time > `t` at which a motor's target breaks.
   [[nodiscard]] double next_break(double t) const;
 

@@ -40,6 +40,21 @@ struct Lane {
   friend void operator-=(Lane& a, const Lane& b) { a.x -= b.x; }
 };
 
+/// Where x > 0, else another.
+template <class Set, int N>
+inline Lane<Set, N> if_positive(const Lane<Set, N>& x, const Lane<Set, N>& then, const Lane<Set, N>& other) {
+  using Pack = typename Lane<Set, N>::Pack;
+  return Lane<Set, N>{Pack(x.x > 0 ? then.x : other.x)};
+}
+
+/// 1 / sqrt(x)
+template <class Set, int N>
+inline Lane<Set, N> inverse_root(const Lane<Set, N>& x) {
+  Lane<Set, N> root;
+  for (int i = 0; i < N; ++i) root.x[i] = __builtin_sqrt(x.x[i]);
+  return Lane<Set, N>{1.0 / root.x};
+}
+
 /// Sine and cosine of an angle in each lane.
 template <class T>
 struct SineCosine {

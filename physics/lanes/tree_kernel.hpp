@@ -3,24 +3,17 @@
 // instruction set; holds nothing that is not a template on the lane type, so that sources do not share code.
 #include <type_traits>
 
-#include <pantin/physics/constraints/ball.hpp>
-#include <pantin/physics/constraints/cylindrical.hpp>
-#include <pantin/physics/constraints/fixed.hpp>
-#include <pantin/physics/constraints/free_root.hpp>
-#include <pantin/physics/constraints/kernel_math.hpp>
-#include <pantin/physics/constraints/pivot.hpp>
-#include <pantin/physics/constraints/planar.hpp>
-#include <pantin/physics/constraints/screw.hpp>
-#include <pantin/physics/constraints/slider.hpp>
-#include <pantin/physics/constraints/universal.hpp>
 #include <pantin/physics/lanes/lane.hpp>
-#include <pantin/physics/lanes/link_lanes.hpp>
-#include <pantin/physics/lanes/stage_sums.hpp>
+#include <pantin/physics/lanes/task_links.hpp>
 
 namespace pantin::lanes {
 
 template <class T>
-class TreeKernel {
+class TreeKernel : public TaskLinks<T> {
+  using Links = TaskLinks<T>;
+  using Links::link, Links::rates, Links::number, Links::with_kind;
+  using typename Links::Given;
+
  public:
   using Vec = Vec3<T>;
 
@@ -47,6 +40,11 @@ class TreeKernel {
       const LinkConstants& c = task.links[i];
       with_kind(c, [&](auto model) { eliminate<decltype(model)>(task, c, link(task, i)); });
     }
+    substitute(task);
+  }
+
+  /// v' by what eliminate has left at the joints.
+  static void substitute(const Task& task) {
     for (std::uint32_t i = task.begin; i < task.end; ++i) {
       const LinkConstants& c = task.links[i];
       with_kind(c, [&](auto model) { substitute<decltype(model)>(task, c, link(task, i)); });
@@ -72,48 +70,6 @@ class TreeKernel {
   }
 
  private:
-  /// A joint whose motion is given: no rates.
-  struct Given {
-    static constexpr int kCoordinates = 0, kRates = 0;
-  };
-
-  template <class F>
-  static void with_kind(const LinkConstants& c, F&& f) {
-    if (c.given >= 0) return f(Given{});
-    switch (c.kind) {
-      case JointKind::Pivot:
-        return f(PivotModel{});
-      case JointKind::Slider:
-        return f(SliderModel{});
-      case JointKind::Ball:
-        return f(BallModel{});
-      case JointKind::Fixed:
-        return f(FixedModel{});
-      case JointKind::Cylindrical:
-        return f(CylindricalModel{});
-      case JointKind::Universal:
-        return f(UniversalModel{});
-      case JointKind::Planar:
-        return f(PlanarModel{});
-      case JointKind::Screw:
-        return f(ScrewModel{c.pitch});
-      case JointKind::Free:
-        return f(FreeModel{});
-      case JointKind::Driven:
-        return;  // always given
-    }
-  }
-
-  static LinkLanes<T>& link(const Task& task, std::uint32_t i) {
-    return reinterpret_cast<LinkLanes<T>*>(task.work)[i - task.begin];
-  }
-  static RateLanes<T>* rates(const Task& task, const LinkConstants& c) {
-    double* after = task.work + (task.end - task.begin) * sizeof(LinkLanes<T>) / sizeof(double);
-    return reinterpret_cast<RateLanes<T>*>(after) + (c.v - task.links[task.begin].v);
-  }
-  static T number(const Task& task, const double* of, std::uint32_t i) {
-    return T::load(of + i * task.stages + task.first);
-  }
   template <class Model>
   static void place(const Task& task, const LinkConstants& c, const Model& model, LinkLanes<T>& out) {
     Mat3<T> R_p = Mat3<T>::identity();
@@ -289,12 +245,5 @@ class TreeKernel {
     l.added.al = al, l.added.a = a;
   }
 };
-
-/// The functions of TreeKernel<T> as a Kernel.
-template <class T>
-Kernel kernel_of(InstructionSet set) {
-  using K = TreeKernel<T>;
-  return {set, T::kCount, K::work_size, K::outward, K::add_wrench, K::solve, K::free_rates, sum_stages<T>};
-}
 
 }  // namespace pantin::lanes

@@ -69,6 +69,21 @@ const Kernel* kernel_for_stages(std::size_t stages) {
   return stages < widest.size() ? widest[stages] : nullptr;
 }
 
+void put_motion(const RigidMotion& motion, std::size_t lanes, double* out) {
+  const Matrix3 R = motion.X_AB.rotation();
+  for (int k = 0; k < 9; ++k) out[static_cast<std::size_t>(k) * lanes] = R(k / 3, k % 3);
+  const Vector3* vectors[] = {&motion.X_AB.p, &motion.w_AB, &motion.v_AB, &motion.alpha_AB, &motion.a_AB};
+  double* to = out + 9 * lanes;
+  for (const Vector3* vector : vectors) {
+    for (int k = 0; k < 3; ++k, to += lanes) *to = (*vector)[k];
+  }
+}
+
+double* AlignedRoom::data() {
+  const auto address = reinterpret_cast<std::uintptr_t>(room_.data());
+  return room_.data() + (64 - address % 64) % 64 / sizeof(double);
+}
+
 namespace {
 
 void fill(const TreeLink& link, const BodyStore& bodies, std::int32_t& given, LinkConstants& c) {
@@ -95,8 +110,8 @@ void fill(const TreeLink& link, const BodyStore& bodies, std::int32_t& given, Li
 
 }  // namespace
 
-void fill_constants(const TreeLayout& layout, const BodyStore& bodies, std::vector<LinkConstants>& links,
-                    std::vector<FreeConstants>& free) {
+std::int32_t fill_constants(const TreeLayout& layout, const BodyStore& bodies,
+                            std::vector<LinkConstants>& links, std::vector<FreeConstants>& free) {
   links.resize(layout.links.size());
   std::int32_t given = 0;
   for (std::size_t i = 0; i < links.size(); ++i) fill(layout.links[i], bodies, given, links[i]);
@@ -112,6 +127,7 @@ void fill_constants(const TreeLayout& layout, const BodyStore& bodies, std::vect
     free[i].inverse_mass = 1 / bodies.mass[body].mass;
     for (int k = 0; k < 9; ++k) free[i].inverse_inertia[k] = bodies.inverse_inertia[body](k / 3, k % 3);
   }
+  return given;
 }
 
 }  // namespace pantin::lanes

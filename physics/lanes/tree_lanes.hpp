@@ -49,6 +49,20 @@ struct LinkConstants {
 /// (row-major), p, w, v, alpha, a: 24 numbers.
 constexpr std::size_t kMotionNumbers = 24;
 
+/// Writes a motion in one of so many lanes; `out` is where number 0 of that lane stands.
+void put_motion(const RigidMotion& motion, std::size_t lanes, double* out);
+
+/// Numbers on a boundary of 64 bytes.
+class AlignedRoom {
+ public:
+  void resize(std::size_t count) { room_.resize(count + kSlack); }
+  [[nodiscard]] double* data();
+
+ private:
+  static constexpr std::size_t kSlack = 8;
+  std::vector<double> room_{};
+};
+
 /// What the kernel works on: links `begin` to `end`, one after the other, parents first.
 struct Task {
   const LinkConstants* links{nullptr};
@@ -91,6 +105,9 @@ struct StageSums {
   double* out{nullptr};
 };
 
+struct LoopSizes;
+struct LoopTask;  // loop_lanes.hpp
+
 /// The kernel for one instruction set.
 struct Kernel {
   InstructionSet set{InstructionSet::Sse2};
@@ -103,6 +120,11 @@ struct Kernel {
   void (*add_wrench)(const Task&, std::uint32_t link, const double* wrench){nullptr};
   /// Eliminates and substitutes; writes v'.
   void (*solve)(const Task&){nullptr};
+  /// Where loops or couplings join links: numbers of work space for them; to be called between outward and
+  /// solve; to be called after solve: what they exert, and v' with that. Returns ClosureSolver::margin.
+  std::size_t (*loop_size)(const LoopSizes&){nullptr};
+  void (*trace)(const Task&, const LoopTask&){nullptr};
+  double (*close)(const Task&, const LoopTask&){nullptr};
   void (*free_rates)(const FreeTask&){nullptr};
   void (*sum_stages)(const StageSums&){nullptr};
 };
@@ -113,8 +135,8 @@ struct Kernel {
 [[nodiscard]] const Kernel* kernel_for_stages(std::size_t stages);
 
 /// The constants of all links and free bodies of a layout. Joints and grounds with given motion are numbered
-/// from 0 in the order of the links, the ground of a link before its joint.
-void fill_constants(const TreeLayout& layout, const BodyStore& bodies, std::vector<LinkConstants>& links,
-                    std::vector<FreeConstants>& free);
+/// from 0 in the order of the links, the ground of a link before its joint. Returns how many these are.
+std::int32_t fill_constants(const TreeLayout& layout, const BodyStore& bodies,
+                            std::vector<LinkConstants>& links, std::vector<FreeConstants>& free);
 
 }  // namespace pantin::lanes

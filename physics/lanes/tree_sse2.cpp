@@ -1,5 +1,5 @@
 // The kernel for every machine (flags in physics/CMakeLists.txt).
-#include <pantin/physics/lanes/tree_kernel.hpp>
+#include <pantin/physics/lanes/kernel_of.hpp>
 
 namespace pantin::lanes {
 

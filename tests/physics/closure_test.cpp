@@ -5,24 +5,20 @@
 #include <cmath>
 #include <limits>
 
-#include <pantin/physics/constraints/cylindrical.hpp>
-#include <pantin/physics/constraints/planar.hpp>
-#include <pantin/physics/constraints/screw.hpp>
-#include <pantin/physics/constraints/universal.hpp>
-#include <pantin/physics/forces/damped_spring.hpp>
 #include <pantin/physics/integrators/dormand_prince.hpp>
 #include <pantin/physics/integrators/gauss.hpp>
 
 #include "support/four_bar.hpp"
+#include "support/two_hands.hpp"
 
 namespace pantin {
 namespace {
 
-using test::facing;
 using test::FourBar;
 using test::joint_here;
 using test::lopsided_mass;
 using test::run;
+using test::TwoHands;
 
 TEST(Closure, MovesAFourBarAsItsOneCoordinateDoes) {
   // Four pivots in space hold a planar four-bar with five rows, of which three are redundant. Its motion in
@@ -141,52 +137,7 @@ TEST(Closure, PassesThroughPositionsInWhichAllBarsAreInLine) {
   }
 }
 
-/// Two bodies, each on six joints of one freedom, so that it moves freely but costs more rows than what joins
-/// them.
-struct TwoHands {
-  PhysicsManager physics{};
-  BodyId a{}, b{};
-  Pose X_WJ{{0.5, 0.1, 0.2}, Quaternion{Eigen::AngleAxisd{0.8, Vector3{1, -2, 0.5}.normalized()}}};
-
-  TwoHands() {
-    physics.forces().add(Gravity{.g_W = {0.5, 1, -2}});
-    a = hand({0, 0, 0});
-    b = hand({1, 0, 0});
-    // Springs, for what falls freely needs no holding.
-    physics.forces().add(
-        DampedSpring{.a = {{}, {2, 1, 1}}, .b = {b, {0.2, 0.1, -0.3}}, .stiffness = 40, .rest_length = 0.2});
-    physics.forces().add(DampedSpring{
-        .a = {{}, {-1, 0.5, -1}}, .b = {a, {-0.1, 0.2, 0.15}}, .stiffness = 25, .rest_length = 0.3});
-  }
-  BodyId hand(const Vector3& at) {
-    BodyId last{};
-    for (int k = 0; k < 6; ++k) {
-      const BodyId next = physics.add(RigidBodySettings{.X_WB = {at + Vector3{0.03 * k, 0.02, -0.05 * k}},
-                                                        .mass = lopsided_mass(1 + 2 * at.x())});
-      const Pose X{at + Vector3{0.1 - 0.15 * at.x(), -0.05 * k, 0.02 * k}, facing(Vector3::Unit(k % 3))};
-      if (k < 3) physics.add(joint_here<SliderSettings>(physics, last, next, X));
-      else physics.add(joint_here<PivotSettings>(physics, last, next, X));
-      last = next;
-    }
-    return last;
-  }
-};
-
-struct KindCase {
-  const char* name;
-  JointId (*add)(TwoHands&);
-};
-
-template <class Settings>
-JointId add_here(TwoHands& t) {
-  Settings s = joint_here<Settings>(t.physics, t.a, t.b, t.X_WJ, "between");
-  if constexpr (requires { s.pitch; }) s.pitch = 0.07;
-  return t.physics.add(s);
-}
-
-std::ostream& operator<<(std::ostream& out, const KindCase& kind) { return out << kind.name; }
-
-class ClosureOf : public testing::TestWithParam<KindCase> {};
+class ClosureOf : public testing::TestWithParam<test::CutKind> {};
 
 TEST_P(ClosureOf, HoldsWhatTheJointHoldsAndNothingElse) {
   // The joint costs at most as many rows as any other and lies farthest from the ground, so it is cut. That
@@ -255,14 +206,7 @@ TEST_P(ClosureOf, CanBeReplacedByItsReaction) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ClosureOf,
-                         testing::Values(KindCase{"Pivot", add_here<PivotSettings>},
-                                         KindCase{"Slider", add_here<SliderSettings>},
-                                         KindCase{"Screw", add_here<ScrewSettings>},
-                                         KindCase{"Cylindrical", add_here<CylindricalSettings>},
-                                         KindCase{"Universal", add_here<UniversalSettings>},
-                                         KindCase{"Ball", add_here<BallSettings>},
-                                         KindCase{"Planar", add_here<PlanarSettings>}),
+INSTANTIATE_TEST_SUITE_P(Kinds, ClosureOf, testing::ValuesIn(test::kCutKinds),
                          [](const auto& test) { return std::string{test.param.name}; });
 
 TEST(Closure, FollowsAnAnimatedBody) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <support/lane_trees.hpp>
 #include <support/mixed_tree.hpp>
 
 #include <pantin/physics/forces/damped_spring.hpp>
@@ -46,77 +47,13 @@ TEST(Lane, SineAndCosineAreRightToTwoUnitsInTheLastPlace) {
   }
 }
 
-/// A tree of `count` links of all kinds, its root floating, with numbers from a seed.
-std::vector<lanes::LinkConstants> random_tree(int count, std::uint32_t& coordinates, std::uint32_t& rates) {
-  constexpr JointKind kKinds[] = {JointKind::Free,   JointKind::Pivot, JointKind::Slider,
-                                  JointKind::Ball,   JointKind::Fixed, JointKind::Universal,
-                                  JointKind::Planar, JointKind::Screw, JointKind::Cylindrical};
-  constexpr std::uint32_t kSizes[][2] = {{7, 6}, {1, 1}, {1, 1}, {4, 3}, {0, 0},
-                                         {2, 2}, {3, 3}, {1, 1}, {2, 2}};
-  std::mt19937 random{11};
-  std::uniform_real_distribution<double> any{-1, 1};
-  std::vector<lanes::LinkConstants> links(static_cast<std::size_t>(count));
-  coordinates = rates = 0;
-  for (int i = 0; i < count; ++i) {
-    lanes::LinkConstants& c = links[static_cast<std::size_t>(i)];
-    const int kind = i == 0 ? 0 : 1 + (i - 1) % 8;
-    c.kind = kKinds[kind];
-    c.parent = i == 0 ? -1 : static_cast<std::int32_t>(std::uniform_int_distribution<int>{0, i - 1}(random));
-    c.q = coordinates, c.v = rates;
-    coordinates += kSizes[kind][0], rates += kSizes[kind][1];
-    const Matrix3 R =
-        Quaternion{any(random), any(random), any(random), any(random)}.normalized().toRotationMatrix();
-    for (int k = 0; k < 9; ++k) c.R_PJ[k] = R(k / 3, k % 3);
-    for (double& p : c.p_PJ) p = any(random);
-    c.mass = 1 + any(random) / 2;
-    for (double& h : c.moment) h = 0.1 * any(random);
-    for (int k = 0; k < 3; ++k) c.inertia[k] = 1 + any(random) / 3, c.inertia[3 + k] = 0.1 * any(random);
-    for (double& d : c.damping) d = 0.1;
-    c.is_damped = true;
-    c.is_loaded = i % 2 == 1;
-    if (c.is_loaded) std::fill_n(c.armature, 3, 0.05);
-    c.pitch = 0.2;
-  }
-  for (std::size_t i = links.size(); i-- > 1;) {
-    lanes::LinkConstants& up = links[static_cast<std::size_t>(links[i].parent)];
-    links[i].first_child = up.leaf;
-    up.leaf = false;
-  }
-  return links;
-}
-
 TEST(TreeLanes, AllInstructionSetsSayTheSame) {
   // One source, three translations: they differ by the rounding of fused products only, which an elimination
   // of 40 links of masses around 1 does not enlarge much.
-  std::uint32_t coordinates = 0, rates = 0;
-  const std::vector<lanes::LinkConstants> links = random_tree(40, coordinates, rates);
-  constexpr std::size_t kStages = 8;
-  std::mt19937 random{5};
-  std::uniform_real_distribution<double> any{-1, 1};
-  std::vector<double> q(coordinates * kStages), v(rates * kStages), efforts(rates * kStages);
-  for (double& x : q) x = any(random);
-  for (double& x : v) x = any(random);
-  for (double& x : efforts) x = any(random);
+  test::LaneTree tree{40};
   std::vector<double> first;
   for (const lanes::InstructionSet set : lanes::instruction_sets()) {
-    const lanes::Kernel& kernel = lanes::kernel_for(set);
-    std::vector<double> v_dot(rates * kStages), room(kernel.work_size(links.size(), rates) + 8);
-    const auto address = reinterpret_cast<std::uintptr_t>(room.data());
-    for (std::size_t s = 0; s < kStages; s += static_cast<std::size_t>(kernel.lanes)) {
-      const lanes::Task task{.links = links.data(),
-                             .begin = 0,
-                             .end = static_cast<std::uint32_t>(links.size()),
-                             .q = q.data(),
-                             .v = v.data(),
-                             .v_dot = v_dot.data(),
-                             .stages = kStages,
-                             .first = s,
-                             .gravity = {0.1, 0.2, -9.81},
-                             .efforts = efforts.data(),
-                             .work = room.data() + (64 - address % 64) % 64 / sizeof(double)};
-      kernel.outward(task);
-      kernel.solve(task);
-    }
+    const std::vector<double> v_dot = tree.solve(lanes::kernel_for(set));
     if (first.empty()) first = v_dot;
     for (std::size_t i = 0; i < v_dot.size(); ++i) {
       EXPECT_NEAR(v_dot[i], first[i], 1e-10 * (1 + std::abs(first[i]))) << to_string(set) << ' ' << i;
