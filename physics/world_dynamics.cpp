@@ -90,6 +90,7 @@ void WorldDynamics::gather_wrenches(Instant at) {
   }
   const BodiesAt bodies = bodies_at(at);
   laws().gather(bodies, wrenches_);
+  adjust_lines(bodies);
   if (also != nullptr) also->add_wrenches(bodies, wrenches_);
 }
 

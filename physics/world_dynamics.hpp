@@ -8,6 +8,7 @@
 #include <pantin/physics/body_store.hpp>
 #include <pantin/physics/constraints/constraint_manager.hpp>
 #include <pantin/physics/forces/force_manager.hpp>
+#include <pantin/physics/forces/line_force.hpp>
 #include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/integrators/integrator.hpp>
 #include <pantin/physics/lanes/loop_lanes.hpp>
@@ -121,6 +122,11 @@ class WorldDynamics final : public Dynamics {
   /// Of islands of free bodies exact, from what the laws state; of trees by differences.
   void jacobian(const JacobianPoint& point, Jacobian& J) override;
 
+  /// Force laws that act along one number (world_lines.cpp).
+  [[nodiscard]] std::span<const LineStiffness> lines() override;
+  void place_lines(const Stages& stages, const LineStages& out) override;
+  void jacobian_beside_lines(const JacobianPoint& point, Jacobian& J) override;
+
   /// What stages are computed in; they are computed one after the other where this is off.
   bool uses_lanes{true};
   int evaluations{0};           ///< of v' since it was last set to 0
@@ -217,6 +223,22 @@ class WorldDynamics final : public Dynamics {
   [[nodiscard]] lanes::LoopTask loop_task(const Tree& tree);
   LaneRoom lane_{};
   OpenLoop open_loop_{};
+
+  // Lines (world_lines.cpp).
+  struct LineRoom {
+    std::vector<const LineForce*> laws{};
+    std::vector<LineStiffness> stiffness{};
+    std::vector<double> kept{};  ///< efforts that stay; empty = none do
+    std::int32_t pulled{-1};     ///< the line on which a unit of effort more acts; -1 = none
+    std::vector<double> q_dot{}, v_dot{}, by_rate{};
+    std::vector<Wrench> on_links{};
+  };
+  void adjust_lines(const BodiesAt& bodies);
+  void project_line(std::span<const double> q, std::size_t stage, std::size_t stages, std::span<double> by_q,
+                    std::span<double> by_v);
+  void project_on_trees(std::span<const double> q, std::size_t stage, std::size_t stages,
+                        std::span<double> by_q, std::span<double> by_v);
+  LineRoom line_{};
 
   // The Jacobian (world_jacobian.cpp).
   struct FreeBlock {

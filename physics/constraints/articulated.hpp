@@ -78,6 +78,11 @@ class Articulated {
   /// v' (or the rates, after load_momenta) of a tree, into the vector of all trees.
   void substitute(const TreeLayout& layout, const Tree& tree, std::span<double> v_dot);
 
+  /// After place: generalised forces of wrenches on the links of a tree (force, and torque about the world's
+  /// origin), by rate of all trees. The wrenches are added up towards the ground.
+  void project(const TreeLayout& layout, const Tree& tree, std::span<Wrench> on_links,
+               std::span<double> by_rate) const;
+
   // After eliminate, for rows between two links (closure.hpp), with D = L d L^T:
   struct JointEffort {  ///< generalised forces at the joint that ties a link, by rate of the link
     std::int32_t link{-1};

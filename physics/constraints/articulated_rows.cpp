@@ -18,6 +18,24 @@ void Articulated::load_inertia(const TreeLayout& layout, const Tree& tree) {
   }
 }
 
+void Articulated::project(const TreeLayout& layout, const Tree& tree, std::span<Wrench> on_links,
+                          std::span<double> by_rate) const {
+  const auto plain = [](const Vector3& x) { return Vec{x.x(), x.y(), x.z()}; };
+  for (std::uint32_t i = tree.links_end; i-- > tree.links_begin;) {
+    const TreeLink& link = layout.links[i];
+    const Wrench& on = on_links[i];
+    const Vec force = plain(on.force), torque = plain(on.torque) - cross(work_[i].p, force);
+    with_model(link, [&](auto model) {
+      for (std::uint32_t J = link.v; J < link.v + std::uint32_t{decltype(model)::kRates}; ++J)
+        by_rate[J] = is_locked(J) ? 0 : dot(S_a_[J], torque) + dot(S_l_[J], force);
+    });
+    if (link.parent < 0) continue;
+    Wrench& up = on_links[static_cast<std::size_t>(link.parent)];
+    up.force += on.force;
+    up.torque += on.torque;
+  }
+}
+
 template <int N>
 void Articulated::reduce_link(const TreeLink& link, const LinkWork& work, const RowWrench& row, Vec& p_a,
                               Vec& p_l, const double* effort, double* y, Reduction& sum) const {

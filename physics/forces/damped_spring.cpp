@@ -3,29 +3,41 @@
 // angular momentum changes. The potential is k (l - l0)^2 / 2; the damper has none.
 #include <pantin/physics/forces/damped_spring.hpp>
 
+#include <pantin/physics/forces/line_force.hpp>
 #include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
 namespace {
 
-class DampedSpringLaw final : public ForceLaw {
+class DampedSpringLaw final : public ForceLaw, public LineForce {
  public:
   explicit DampedSpringLaw(const DampedSpring& settings) : settings_{settings} {}
 
   void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const override {
-    const PointKinematics a = point_at(at, settings_.a);
-    const PointKinematics b = point_at(at, settings_.b);
+    add_effort(at, effort(at), wrenches);
+  }
+  const LineForce* line() const override { return this; }
+  double stiffness() const override { return settings_.stiffness; }
+  double damping() const override { return settings_.damping; }
+
+  /// The tension.
+  double effort(const BodiesAt& at) const override {
+    const PointKinematics a = point_at(at, settings_.a), b = point_at(at, settings_.b);
     const Vector3 d = b.p_WQ - a.p_WQ;
     const double length = d.stableNorm();
+    if (length == 0) return 0;
+    const double length_rate = (d / length).dot(b.v_WQ - a.v_WQ);
+    return settings_.stiffness * (length - settings_.rest_length) + settings_.damping * length_rate;
+  }
+
+  void add_effort(const BodiesAt& at, double effort, std::span<Wrench> wrenches) const override {
+    const Vector3 a = point_at(at, settings_.a).p_WQ, b = point_at(at, settings_.b).p_WQ;
+    const double length = (b - a).stableNorm();
     if (length == 0) return;
-    const Vector3 n = d / length;
-    const double length_rate = n.dot(b.v_WQ - a.v_WQ);
-    const double tension =
-        settings_.stiffness * (length - settings_.rest_length) + settings_.damping * length_rate;
-    const Vector3 force = tension * n;
-    if (settings_.a.body) add_force_at(at, at.index(settings_.a.body), a.p_WQ, force, wrenches);
-    if (settings_.b.body) add_force_at(at, at.index(settings_.b.body), b.p_WQ, -force, wrenches);
+    const Vector3 force = effort * ((b - a) / length);
+    if (settings_.a.body) add_force_at(at, at.index(settings_.a.body), a, force, wrenches);
+    if (settings_.b.body) add_force_at(at, at.index(settings_.b.body), b, -force, wrenches);
   }
 
   /// With N = (1 - n n^T) / l, the derivative of n by d: T n changes by (n (k n^T + c d'^T N) + T N) with d

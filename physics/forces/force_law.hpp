@@ -14,6 +14,7 @@
 
 namespace pantin {
 
+class LineForce;
 class WrenchDerivatives;
 
 /// How far a law reaches: which bodies it couples, in that what one of them feels depends on where another is
@@ -55,6 +56,8 @@ class ForceLaw {
     (void)at, (void)derivatives;
     return false;
   }
+  /// The law as an effort along one number, where it is no more than that.
+  [[nodiscard]] virtual const LineForce* line() const { return nullptr; }
   /// Whether the law names this body; it is removed with the body.
   [[nodiscard]] virtual bool names(BodyId body) const {
     (void)body;

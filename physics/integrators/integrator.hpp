@@ -22,6 +22,16 @@ struct Stages {
   std::span<double> q_dot{}, v_dot{};
 };
 
+/// Forces of one number each that may be stiff, at several states side by side: how its stretch changes with
+/// a change of q, and the stretch's rate with one of v; how v' changes with its effort. Of line r, number i
+/// of stage s stands at [(r * n + i) * stages + s], n the size of q, v, v.
+struct LineStages {
+  std::span<double> stretch_by_q{}, rate_by_v{}, response{};
+};
+struct LineStiffness {
+  double stiffness{0}, damping{0};  ///< effort = stiffness * stretch + damping * its rate, drawing it in
+};
+
 /// q' = rate(q, v), v' = acceleration(t, q, v). Coordinates and rates need not be of one size: an attitude is
 /// a quaternion (four coordinates, embedded in R^4, used as if normalised) with three angular momenta or
 /// rates. All functions may be called at any stage, with any q near the manifold.
@@ -52,6 +62,12 @@ class Dynamics {
   /// Fills the blocks of J, which fits the groups of list_groups and is zero. Unless told otherwise by
   /// one-sided differences: as many derivatives as the greatest group has numbers.
   virtual void jacobian(const JacobianPoint& point, Jacobian& J);
+  /// The lines along which stiff forces act. Unless told otherwise, none.
+  [[nodiscard]] virtual std::span<const LineStiffness> lines() { return {}; }
+  /// How they lie at the stages, of which v_dot is known.
+  virtual void place_lines(const Stages& stages, const LineStages& out) { (void)stages, (void)out; }
+  /// As jacobian, by differences, with the efforts along lines staying what they are at the point.
+  virtual void jacobian_beside_lines(const JacobianPoint& point, Jacobian& J) { jacobian(point, J); }
   /// Upper estimates of how far a unit of each coordinate and velocity moves any body [m or rad per unit], at
   /// any state: what iterations may stop by. Unless told otherwise, one.
   virtual void weights(std::span<double> q_weight, std::span<double> v_weight);
@@ -73,6 +89,8 @@ class Dynamics {
  protected:
   /// The blocks of these groups by differences.
   void take_differences(const JacobianPoint& point, std::span<const std::size_t> wanted, Jacobian& J);
+  /// All blocks by differences.
+  void take_differences(const JacobianPoint& point, Jacobian& J);
 
  private:
   /// Columns first .. first + count of these groups' blocks.

@@ -48,7 +48,9 @@ void Dynamics::list_groups(NumberGroups& groups) {
   groups.end_group();
 }
 
-void Dynamics::jacobian(const JacobianPoint& point, Jacobian& J) {
+void Dynamics::jacobian(const JacobianPoint& point, Jacobian& J) { take_differences(point, J); }
+
+void Dynamics::take_differences(const JacobianPoint& point, Jacobian& J) {
   differences_.wanted.resize(J.groups.size());
   std::iota(differences_.wanted.begin(), differences_.wanted.end(), std::size_t{0});
   take_differences(point, differences_.wanted, J);

@@ -1,6 +1,7 @@
 // Slopes k_i = f(t + c_i h, y + h sum a_ij k_j) of y = (q, v), by an iteration that gives each stage an
 // implicit part of its own,
-//   (1 - h g_i J) (k_i' - k_i) = f(y + h sum a_ij k_j) - k_i,   J = df/dy at the begin of a step,
+//   (1 - h g_i J) (k_i' - k_i) = f(y + h sum a_ij k_j) - k_i,   J = df/dy at the begin of a step, or beside
+//   it what stiff forces along lines do at the stage (stage_factors.hpp),
 // with g chosen so that it contracts on the whole left half-plane, for motion that decays and that
 // oscillates; P. J. van der Houwen, J. J. B. de Swart, Parallel linear system solvers for Runge-Kutta
 // methods, 1997, for the idea. Nodes and weights: Radau IIA, E. Hairer, G. Wanner, Solving Ordinary
@@ -10,12 +11,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <pantin/physics/expects.hpp>
 #include <pantin/physics/integrators/collocation.hpp>
 #include <pantin/physics/integrators/controlled.hpp>
-#include <pantin/physics/integrators/group_solver.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
+#include <pantin/physics/integrators/stage_factors.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
@@ -26,11 +28,16 @@ constexpr int kStages = 4;
 constexpr std::array<double, kStages> kDiagonal{.25832332244025374, .08465508228266594, .20389264736174081,
                                                 .30630376583844887};
 constexpr double kIterationShare = 0.05;
-constexpr int kMostSweeps = 60, kStepsPerDerivative = 20;
+constexpr int kMostSweeps = 60, kMostSweepsBesideLines = 100, kStepsPerDerivative = 20;
 constexpr double kSlow = 0.6;  ///< contraction from which the derivative is taken anew
 constexpr double kRounding = 1e-15;
-constexpr double kFirstPart = 0.01;                      ///< of the step asked for, where nothing is known
-constexpr double kDifference = 3e-8, kLeastSize = 1e-3;  ///< of a number [m, rad, ...], for differences
+constexpr double kFirstPart = 0.01;  ///< of the step asked for, where nothing is known
+// Where steps are controlled, a shorter one with J at the begin costs less than one with rows for forces
+// along lines, unless steps must be cut time and again: a step cut counts so many, one that did well takes
+// one off.
+constexpr int kPriceOfCut = 2, kTooManyCuts = 5;
+constexpr int kStepsPerTrial = 20;  ///< with such rows, until J is tried again
+constexpr double kAstray = 30;      ///< times the least change: sweeps do not come back from there
 
 class Radau final : public ControlledIntegrator {
  public:
@@ -48,16 +55,15 @@ class Radau final : public ControlledIntegrator {
     dynamics_ = &dynamics;
     nq_ = q.size();
     n_ = q.size() + v.size();
-    work_.reserve((3 * kStages + 7) * n_);
+    work_.reserve((3 * kStages + 6) * n_);
     for (std::span<double>* stages : {&Y_, &k_, &f_}) *stages = work_.take(n_ * kStages);
-    for (std::span<double>* one : {&y_, &slope_, &trial_, &change_, &x_, &kept_back_, &weight_})
-      *one = work_.take(n_);
+    for (std::span<double>* one : {&y_, &slope_, &trial_, &x_, &kept_back_, &weight_}) *one = work_.take(n_);
     std::fill(kept_back_.begin(), kept_back_.end(), 0.0);
     dynamics.weights(weight_.first(nq_), weight_.subspan(nq_));
     take(q, v);
-    dynamics.list_groups(J_.groups);
+    factors_.begin(dynamics);
     age_ = kStepsPerDerivative;  // what was differentiated in another call may be another system
-    factored_for_ = 0;
+    lined_ = cuts_ = 0;
   }
 
   double first_part(double, double h, std::span<const double>, std::span<const double>) override {
@@ -72,6 +78,7 @@ class Radau final : public ControlledIntegrator {
     dynamics_->settle({part.end, Side::Before}, q, v);
     take(q, v);
     ++age_;
+    lined_ = std::max(lined_ - 1, 0);
   }
 
   void record(const Part& part, std::span<const double> q, std::span<const double> v) {
@@ -91,65 +98,83 @@ class Radau final : public ControlledIntegrator {
     dynamics_->derivative(at, y.first(nq_), y.subspan(nq_), slope.first(nq_), slope.subspan(nq_));
   }
 
-  /// df/dy at the begin of the step; slope_ is f there.
-  void differentiate(double t, double h) {
-    for (std::size_t j = 0; j < n_; ++j) {
-      change_[j] =
-          kDifference * std::max({std::abs(y_[j]), std::min(std::abs(h * slope_[j]), 1.0), kLeastSize});
-    }
-    J_.fit();
-    dynamics_->jacobian({.at = {t, Side::After},
-                         .q = y_.first(nq_),
-                         .v = y_.subspan(nq_),
-                         .slope = slope_,
-                         .change = change_},
-                        J_);
-    age_ = 0;
-    factored_for_ = 0;
-  }
-
-  void factor(double h) {
-    if (h == factored_for_) return;
-    for (std::size_t i = 0; i < kStages; ++i) solvers_[i].factor(J_, h * kDiagonal[i]);
-    factored_for_ = h;
-  }
-
   Outcome attempt(const Part& part, std::span<const double>, std::span<const double>) override {
     const double t = part.t, h = part.h;
     for (std::size_t i = 0; i < kStages; ++i) at_[i] = {t + h * method_.c[i], Side::Before};
     evaluate({t, Side::After}, y_, slope_);
-    if (age_ >= kStepsPerDerivative) differentiate(t, h);
-    factor(h);
-    spread(kStages, k_, slope_);
-    double last = 0;
-    for (int sweep = 1; sweep <= kMostSweeps; ++sweep) {
-      const double change = improve(h), rho = sweep > 1 ? quotient(change, last) : 1;
-      if (!std::isfinite(change)) break;
-      const double enough =
-          std::max(is_controlled() ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
-      // What changes at the level of rounding will not settle further.
-      const bool stalls = (sweep > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) ||
-                          (sweep > 6 && rho > 0.9 && change <= 1e4 * enough + 1e-11 * slope_size(h));
-      if (change <= enough || stalls || (sweep > 1 && rho < 1 && change * rho < enough * (1 - rho))) {
-        if (rho > kSlow && age_ > 0) age_ = kStepsPerDerivative;
+    if (lined_ == 0) {
+      if (age_ >= kStepsPerDerivative || factors_.are_beside_lines()) take_derivative(t, h, false);
+      if (sweep(h)) {
+        cuts_ = std::max(cuts_ - 1, 0);
         return judge(h);
       }
-      if (sweep > 4 && rho > 1.5) break;
-      last = change;
+      age_ = kStepsPerDerivative;
+      cuts_ += kPriceOfCut;
+      if (is_controlled() && cuts_ < kTooManyCuts) return {false, 0.3};
     }
-    age_ = kStepsPerDerivative;
+    // The lines of stiff springs turn with the motion, which J at the begin does not know.
+    if (factors_.has_lines()) {
+      if (age_ >= kStepsPerDerivative || !factors_.are_beside_lines()) take_derivative(t, h, true);
+      if (sweep(h)) {
+        lined_ = kStepsPerTrial;
+        return judge(h);
+      }
+      age_ = kStepsPerDerivative;
+    }
     return {false, 0.3};
   }
 
-  /// One sweep: says by how much it changed the slopes, as motion per unit time.
-  double improve(double h) {
-    add_stages(kStages, Y_, y_, h, k_, method_.a);
+  void take_derivative(double t, double h, bool beside_lines) {
+    factors_.take({t, Side::After}, h, y_, slope_, beside_lines);
+    age_ = 0;
+  }
+
+  /// Sweeps until the slopes settle; says whether they do.
+  bool sweep(double h) {
+    factors_.factor(h);
+    spread(kStages, k_, slope_);
+    const double place = place_size();
+    double last = 0, least = std::numeric_limits<double>::infinity();
+    const int most = factors_.are_beside_lines() ? kMostSweepsBesideLines : kMostSweeps;
+    for (int count = 1; count <= most; ++count) {
+      evaluate_stages(h);
+      if (factors_.are_beside_lines()) factors_.place_lines(stages());
+      const double change = improve(h), rho = count > 1 ? quotient(change, last) : 1;
+      if (!std::isfinite(change)) return false;
+      const double enough =
+          std::max(is_controlled() ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
+      // What changes at the level of rounding will not settle further.
+      const bool stalls = (count > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) ||
+                          (count > 6 && rho > 0.9 &&
+                           change <= 1e4 * enough + 1e-11 * slope_size(h) + 10 * kRounding * place / h);
+      if (change <= enough || stalls || (count > 1 && rho < 1 && change * rho < enough * (1 - rho))) {
+        if (rho > kSlow && age_ > 0) age_ = kStepsPerDerivative;
+        return true;
+      }
+      // Beside lines the first sweeps wander until these have turned to where they belong.
+      if (count > 4 && rho > 1.5 && (!factors_.are_beside_lines() || change > kAstray * least)) return false;
+      last = change;
+      least = std::min(least, change);
+    }
+    return false;
+  }
+
+  Stages stages() {
     const std::size_t cut = nq_ * kStages;
-    dynamics_->derivatives({at_, Y_.first(cut), Y_.subspan(cut), f_.first(cut), f_.subspan(cut)});
+    return {at_, Y_.first(cut), Y_.subspan(cut), f_.first(cut), f_.subspan(cut)};
+  }
+
+  void evaluate_stages(double h) {
+    add_stages(kStages, Y_, y_, h, k_, method_.a);
+    dynamics_->derivatives(stages());
+  }
+
+  /// Says by how much it changed the slopes, as motion per unit time.
+  double improve(double h) {
     double most = 0;
     for (std::size_t s = 0; s < kStages; ++s) {
       for (std::size_t i = 0; i < n_; ++i) x_[i] = f_[i * kStages + s] - k_[i * kStages + s];
-      solvers_[s].solve(J_, x_);
+      factors_.solve(s, x_);
       for (std::size_t i = 0; i < n_; ++i) {
         const double by = x_[i];
         k_[i * kStages + s] += by;
@@ -157,6 +182,13 @@ class Radau final : public ControlledIntegrator {
         if (!(size <= most)) most = size;
       }
     }
+    return most;
+  }
+
+  /// What forces know to rounding; attitudes count as one.
+  double place_size() const {
+    double most = 0;
+    for (std::size_t i = 0; i < nq_; ++i) most = std::max(most, weight_[i] * std::max(std::abs(y_[i]), 1.0));
     return most;
   }
 
@@ -191,12 +223,12 @@ class Radau final : public ControlledIntegrator {
   Dynamics* dynamics_{nullptr};
   std::size_t nq_{0}, n_{0};
   WorkSpace work_{};
-  std::span<double> Y_{}, k_{}, f_{}, y_{}, slope_{}, trial_{}, change_{}, x_{}, kept_back_{}, weight_{};
+  std::span<double> Y_{}, k_{}, f_{}, y_{}, slope_{}, trial_{}, x_{}, kept_back_{}, weight_{};
   std::array<Instant, kStages> at_{};
-  Jacobian J_{};
-  std::array<GroupSolver, kStages> solvers_{};
-  int age_{0};              ///< steps since J was taken
-  double factored_for_{0};  ///< step [s]; 0 = none
+  StageFactors factors_{kDiagonal};
+  int age_{0};    ///< steps since J was taken
+  int cuts_{0};   ///< for which J at the begin did not do, weighed
+  int lined_{0};  ///< so many steps more forces along lines are kept beside J
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 // Radau IIA collocation with four stages, of order seven and L-stable: for stiff, damped forces. What decays
 // faster than a step is followed to where it goes without being resolved; oscillations that a step does not
-// resolve are damped.
+// resolve are damped. Where stiff forces act along lines that turn with the motion, as springs between
+// bodies, these are followed from stage to stage (stage_factors.hpp).
 #include <memory>
 
 #include <pantin/physics/integrators/integrator.hpp>

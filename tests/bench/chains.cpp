@@ -2,7 +2,7 @@
 // tolerance. Error: the greatest distance of a centre of gravity from the same chain solved by gauss16 at
 // 1e-14, which dormand-prince at 1e-13 confirms first. Prints a row a solver and tolerance: error, CPU time,
 // least of several runs, and evaluations of the derivative. Then a long run, extremes, and chains with stiff
-// springs.
+// springs on joints and between bodies.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -12,6 +12,7 @@
 #include "bench/cpu_time.hpp"
 #include "bench/own_chain.hpp"
 #include "bench/stiff_chain.hpp"
+#include "bench/tied_chain.hpp"
 
 #include <pantin/physics/integrators/gauss.hpp>
 
@@ -110,4 +111,5 @@ int main() {
   pantin::bench::long_run();
   pantin::bench::extremes();
   pantin::bench::measure_stiff_chains();
+  pantin::bench::measure_tied_chains();
 }
