@@ -89,11 +89,9 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
   const double* q0 = q.data() + (q.size() - layout_.coordinates);
   const double* dq = q_error.data() + (q_error.size() - layout_.coordinates);
   const std::span<const double> dv = v_error.last(layout_.rates);
-  // Three motions of every link: as driven parts alone move it, and with either error on top.
-  error_rates_.assign(3 * layout_.rates, 0.0);
-  const std::span<double> still{error_rates_.data(), layout_.rates};
-  const std::span<double> by_q{error_rates_.data() + layout_.rates, layout_.rates};
-  const std::span<double> by_v{error_rates_.data() + 2 * layout_.rates, layout_.rates};
+  error_rates_.assign(2 * layout_.rates, 0.0);
+  const std::span<double> by_q{error_rates_.data(), layout_.rates};
+  const std::span<double> by_v{error_rates_.data() + layout_.rates, layout_.rates};
   for (const TreeLink& link : layout_.links) {
     with_model(link, [&](auto model) { rates_of(model, q0 + link.q, dq + link.q, by_q.data() + link.v); });
   }
@@ -108,15 +106,10 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
       loops_.make_tangential(view, q.last(layout_.coordinates), by_q);
       loops_.make_tangential(view, q.last(layout_.coordinates), by_v);
     }
-    base_.assign(layout_.links.size(), LinkMotion{});
-    if (tree.follows_driver) kernel_.place(layout_, tree, grounds_, now, q.last(layout_.coordinates), still);
-    for (std::uint32_t i = tree.links_begin; tree.follows_driver && i < tree.links_end; ++i) {
-      const LinkWork& link = kernel_.link(static_cast<std::int32_t>(i));
-      base_[i] = {link.v, link.w};
-    }
+    kernel_.place(layout_, tree, grounds_, now, q.last(layout_.coordinates), by_q);
     for (const std::span<const double> rates :
          {std::span<const double>{by_q}, std::span<const double>{by_v}}) {
-      kernel_.place(layout_, tree, grounds_, now, q.last(layout_.coordinates), rates);
+      kernel_.carry(layout_, tree, rates);
       for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) count_link(i, error.value);
     }
   }
@@ -125,13 +118,13 @@ double WorldDynamics::tree_error(std::span<const double> q, std::span<const doub
 
 void WorldDynamics::count_link(std::uint32_t i, double& greatest) const {
   const LinkWork& link = kernel_.link(static_cast<std::int32_t>(i));
-  const kernel::Vec3<double> v = link.v - base_[i].v, w = link.w - base_[i].w;
   Greatest error{greatest};
-  error.count(std::sqrt(dot(w, w)));
+  error.count(std::sqrt(dot(link.w, link.w)));
   for (std::uint32_t m = layout_.links[i].members_begin; m < layout_.links[i].members_end; ++m) {
     const TreeMember& member = layout_.members[m];
     const Vector3 c = member.X_LB * bodies_.mass[member.body].p_BBcm;
-    const kernel::Vec3<double> of_cm = v + cross(w, link.R * kernel::Vec3<double>{c.x(), c.y(), c.z()});
+    const kernel::Vec3<double> of_cm =
+        link.v + cross(link.w, link.R * kernel::Vec3<double>{c.x(), c.y(), c.z()});
     error.count(std::sqrt(dot(of_cm, of_cm)));
   }
   greatest = error.value;

@@ -110,6 +110,9 @@ class WorldDynamics final : public Dynamics {
   [[nodiscard]] bool has_constraints() const override { return !layout_.closures.empty(); }
   /// A loop or coupling that the state settled last leaves open.
   [[nodiscard]] const OpenLoop& open_loop() const noexcept { return open_loop_; }
+  [[nodiscard]] bool rates_are_velocities() const override {
+    return free_bodies().empty() && layout_.coordinates == layout_.rates;
+  }
   [[nodiscard]] bool acceleration_depends_on_velocity() const override;
   double motion_error(std::span<const double> q, std::span<const double> v, std::span<const double> q_error,
                       std::span<const double> v_error, double h) override;
@@ -184,11 +187,7 @@ class WorldDynamics final : public Dynamics {
   std::vector<double> part_q_{}, part_v_{};                  ///< the same, of a part
   std::vector<double> efforts_{};   ///< on rates, of all stages; empty where joints bear no loads
   std::vector<double> cut_near_{};  ///< numbers of cut joints where the last part of the update ended
-  struct LinkMotion {
-    kernel::Vec3<double> v{}, w{};
-  };
   std::vector<double> error_rates_{}, reach_{};  // work space of motion_error, weights, accelerations_now
-  std::vector<LinkMotion> base_{};
 
   // Stages in lanes (lane_dynamics.cpp).
   struct LaneRoom {

@@ -46,6 +46,8 @@ class Articulated {
   /// body position: motion of the body origin of what is not simulated.
   void place(const TreeLayout& layout, const Tree& tree, std::span<const RigidMotion> grounds, Instant at,
              std::span<const double> q, std::span<const double> v);
+  /// After place: velocities of links as these rates alone move them, on grounds and driven joints at rest.
+  void carry(const TreeLayout& layout, const Tree& tree, std::span<const double> rates);
   /// Writes the kinematics of the tree's bodies, as placed.
   void write_members(const TreeLayout& layout, const Tree& tree, std::span<const MassProperties> mass,
                      std::span<BodyKinematics> out) const;

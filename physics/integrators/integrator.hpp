@@ -83,6 +83,8 @@ class Dynamics {
   [[nodiscard]] virtual double motion_error(std::span<const double> q, std::span<const double> v,
                                             std::span<const double> q_error, std::span<const double> v_error,
                                             double h);
+  /// Whether q' is v, number by number. Unless told otherwise, it is not.
+  [[nodiscard]] virtual bool rates_are_velocities() const { return false; }
   /// Whether v' depends on v besides through constraints that the caller does not see.
   [[nodiscard]] virtual bool acceleration_depends_on_velocity() const { return true; }
 
@@ -113,7 +115,7 @@ struct StepMemory {
   double next{0};                   ///< step to be tried first [s]; 0 = the step asked for
   double last{0};                   ///< step that the slopes are of [s]
   std::vector<double> reached{};    ///< q and v at its end
-  std::vector<double> slopes{};     ///< q' and v' at its stages
+  std::vector<double> slopes{};     ///< q' and v' over it, as Legendre coefficients
   std::vector<double> kept_back{};  ///< what rounding has kept back from q and v
 };
 

@@ -15,8 +15,8 @@ using kernel::Vec3;
 /// Six by six, symmetric: [A B; B^T M].
 template <class T>
 struct SpatialInertia {
-  Sym3<T> A{}, M{};
-  Mat3<T> B{};
+  Sym3<T> A, M;
+  Mat3<T> B;
 };
 
 /// What a link keeps from one pass to the next. What the outward pass needs of the parent and what the inward
@@ -25,6 +25,8 @@ template <class T>
 struct LinkLanes {
   Mat3<T> R;
   Vec3<T> r, w;
+  Sym3<T> A;         ///< own inertia about the link's origin, in axes of the world
+  Vec3<T> h;         ///< own first moment, the same way
   Vec3<T> p_a, p_l;  ///< bias wrench about the link's origin
   union {
     struct {
@@ -81,7 +83,7 @@ inline void operator-=(Vec3<T>& a, const Vec3<T>& b) {
 
 /// Of a link without its children, about its origin, in axes of the world.
 template <class T>
-inline Sym3<T> own_inertia(const LinkConstants& c, const Mat3<T>& R) {
+inline Sym3<T> rotational_inertia(const LinkConstants& c, const Mat3<T>& R) {
   const double* I = c.inertia;
   return rotated(R, Sym3<T>{T(I[0]), T(I[1]), T(I[2]), T(I[3]), T(I[4]), T(I[5])});
 }
@@ -89,6 +91,24 @@ inline Sym3<T> own_inertia(const LinkConstants& c, const Mat3<T>& R) {
 template <class T>
 inline Sym3<T> sum(const Sym3<T>& a, const Sym3<T>& b) {
   return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+}
+template <class T>
+inline Mat3<T> sum(const Mat3<T>& a, const Mat3<T>& b) {
+  return {{a.m[0] + b.m[0], a.m[1] + b.m[1], a.m[2] + b.m[2], a.m[3] + b.m[3], a.m[4] + b.m[4],
+           a.m[5] + b.m[5], a.m[6] + b.m[6], a.m[7] + b.m[7], a.m[8] + b.m[8]}};
+}
+
+/// Of a link without its children, where it is placed.
+template <class T>
+inline SpatialInertia<T> own_inertia(const LinkConstants& c, const LinkLanes<T>& l) {
+  const T mass = T(c.mass), zero = T(0);
+  return {l.A,
+          {mass, mass, mass, zero, zero, zero},
+          {{zero, -l.h.z, l.h.y, l.h.z, zero, -l.h.x, -l.h.y, l.h.x, zero}}};
+}
+template <class T>
+inline SpatialInertia<T> sum(const SpatialInertia<T>& a, const SpatialInertia<T>& b) {
+  return {sum(a.A, b.A), sum(a.M, b.M), sum(a.B, b.B)};
 }
 
 /// I - U U^T / d and p + U u / d, with a = U_a / d and b = U_l / d.
@@ -129,11 +149,10 @@ inline void shift(const LinkConstants& c, const Vec3<T>& r, const SpatialInertia
   const Vec3<T> torque = p_a + cross(r, p_l);
   auto& sums = up.children;
   if (c.first_child) {
-    sums.inertia.A = A, sums.inertia.M = M, sums.inertia.B = C;
+    sums.inertia = {A, M, C};
     sums.p_a = torque, sums.p_l = p_l;
   } else {
-    sums.inertia.A = sum(sums.inertia.A, A), sums.inertia.M = sum(sums.inertia.M, M);
-    for (int k = 0; k < 9; ++k) sums.inertia.B.m[k] += C.m[k];
+    sums.inertia = sum(sums.inertia, {A, M, C});
     sums.p_a += torque, sums.p_l += p_l;
   }
 }

@@ -57,7 +57,7 @@ class TaskLinks {
     return reinterpret_cast<LinkLanes<T>*>(task.work)[i - task.begin];
   }
   static RateLanes<T>* rates(const Task& task, const LinkConstants& c) {
-    double* after = task.work + (task.end - task.begin) * sizeof(LinkLanes<T>) / sizeof(double);
+    double* after = task.work + (task.end + 1 - task.begin) * sizeof(LinkLanes<T>) / sizeof(double);
     return reinterpret_cast<RateLanes<T>*>(after) + (c.v - task.links[task.begin].v);
   }
   static T number(const Task& task, const double* of, std::uint32_t i) {

@@ -18,7 +18,7 @@ class TreeKernel : public TaskLinks<T> {
   using Vec = Vec3<T>;
 
   static std::size_t work_size(std::size_t links, std::size_t rates) {
-    return (links * sizeof(LinkLanes<T>) + rates * sizeof(RateLanes<T>)) / sizeof(double);
+    return ((links + 1) * sizeof(LinkLanes<T>) + rates * sizeof(RateLanes<T>)) / sizeof(double);
   }
 
   static void outward(const Task& task) {
@@ -72,20 +72,10 @@ class TreeKernel : public TaskLinks<T> {
  private:
   template <class Model>
   static void place(const Task& task, const LinkConstants& c, const Model& model, LinkLanes<T>& out) {
-    Mat3<T> R_p = Mat3<T>::identity();
-    Vec w_p{}, al_p{}, a_p{};
-    if (c.parent >= 0) {
-      const LinkLanes<T>& up = link(task, static_cast<std::uint32_t>(c.parent));
-      R_p = up.R, w_p = up.w, al_p = up.motion.al, a_p = up.motion.a;
-    } else {
-      if (c.ground >= 0) {
-        const double* m = task.motions + static_cast<std::size_t>(c.ground) * kMotionNumbers * T::kCount;
-        R_p = load9<T>(m), w_p = load3<T>(m + 12 * T::kCount);
-        al_p = load3<T>(m + 18 * T::kCount), a_p = load3<T>(m + 21 * T::kCount);
-      }
-      // Gravity is an acceleration of the ground the other way.
-      a_p -= spread<T>(task.gravity);
-    }
+    const LinkLanes<T>& up =
+        c.parent >= 0 ? link(task, static_cast<std::uint32_t>(c.parent)) : ground(task, c);
+    const Mat3<T>& R_p = up.R;
+    const Vec &w_p = up.w, &al_p = up.motion.al, &a_p = up.motion.a;
     const Mat3<T> R_J = R_p * spread_matrix<T>(c.R_PJ);
     Vec r = R_p * spread<T>(c.p_PJ);
     Vec w_rel{}, v_rel{}, al_rel{}, a_rel{};
@@ -133,26 +123,30 @@ class TreeKernel : public TaskLinks<T> {
     out.r = r, out.w = w;
     out.motion.al = al, out.motion.a = a;
     const Vec h = out.R * spread<T>(c.moment);
-    const Sym3<T> A = own_inertia<T>(c, out.R);
+    const Sym3<T> A = rotational_inertia<T>(c, out.R);
+    out.A = A, out.h = h;
     out.p_a = A * al + cross(w, A * w) + cross(h, a);
     out.p_l = T(c.mass) * a + cross(al, h) + cross(w, cross(w, h));
   }
 
+  /// The motion that a root hangs on. Gravity is an acceleration of the ground the other way.
+  static const LinkLanes<T>& ground(const Task& task, const LinkConstants& c) {
+    LinkLanes<T>& out = link(task, task.end);
+    out.R = Mat3<T>::identity(), out.w = {}, out.motion.al = {}, out.motion.a = {};
+    if (c.ground >= 0) {
+      const double* m = task.motions + static_cast<std::size_t>(c.ground) * kMotionNumbers * T::kCount;
+      out.R = load9<T>(m), out.w = load3<T>(m + 12 * T::kCount);
+      out.motion.al = load3<T>(m + 18 * T::kCount), out.motion.a = load3<T>(m + 21 * T::kCount);
+    }
+    out.motion.a -= spread<T>(task.gravity);
+    return out;
+  }
+
   template <class Model>
   static void eliminate(const Task& task, const LinkConstants& c, LinkLanes<T>& l) {
-    SpatialInertia<T> I;
+    SpatialInertia<T> I = c.leaf ? own_inertia(c, l) : sum(own_inertia(c, l), l.children.inertia);
     Vec p_a = l.p_a, p_l = l.p_l;
-    const Vec h = l.R * spread<T>(c.moment);
-    const T mass = T(c.mass), zero = T(0);
-    I.A = own_inertia<T>(c, l.R);
-    I.B = {{zero, -h.z, h.y, h.z, zero, -h.x, -h.y, h.x, zero}};
-    I.M = {mass, mass, mass, zero, zero, zero};
-    if (!c.leaf) {
-      const auto& children = l.children;
-      I.A = sum(I.A, children.inertia.A), I.M = sum(I.M, children.inertia.M);
-      for (int k = 0; k < 9; ++k) I.B.m[k] += children.inertia.B.m[k];
-      p_a += children.p_a, p_l += children.p_l;
-    }
+    if (!c.leaf) p_a += l.children.p_a, p_l += l.children.p_l;
     if constexpr (std::is_same_v<Model, PivotModel>) eliminate_pivot(task, c, l, I, p_a, p_l);
     else if constexpr (Model::kRates > 0) eliminate_rates<Model::kRates>(task, c, I, p_a, p_l);
     if (c.parent >= 0) shift(c, l.r, I, p_a, p_l, link(task, static_cast<std::uint32_t>(c.parent)));
