@@ -75,7 +75,7 @@ Collocation collocation(int n, bool radau) {
     method.c[j] = static_cast<double>(c[j]);
     method.b[j] = static_cast<double>(b[j]);
     for (std::size_t k = 0; k < size; ++k)
-      method.legendre[k][j] = static_cast<double>(static_cast<Real>(2 * k + 1) * b[j] * P[j][k]);
+      method.legendre[j][k] = static_cast<double>(static_cast<Real>(2 * k + 1) * b[j] * P[j][k]);
     for (std::size_t i = 0; i < size; ++i) {
       Real sum = c[i];  // k = 0
       for (std::size_t k = 1; k < size; ++k) sum += P[j][k] * (P[i][k + 1] - P[i][k - 1]) / 2;
@@ -96,30 +96,17 @@ Collocation collocation(int n, bool radau) {
 Collocation gauss_collocation(int nodes) { return collocation(nodes, false); }
 Collocation radau_collocation(int nodes) { return collocation(nodes, true); }
 
-namespace {
-
-/// Values of the polynomial through the nodes at the places start + ratio c_i, by column.
-NodeMatrix values_at(const Collocation& method, double start, double ratio) {
-  NodeMatrix E{};
-  const auto size = static_cast<std::size_t>(method.nodes);
-  for (std::size_t i = 0; i < size; ++i) {
-    std::array<double, kMostNodes> P{1};
-    const double x = 2 * (start + ratio * method.c[i]) - 1;  // in [-1, 1] where P_k has its usual form
-    if (size > 1) P[1] = x;
-    for (std::size_t k = 1; k + 1 < size; ++k) {
-      const auto n = static_cast<double>(k);
-      P[k + 1] = ((2 * n + 1) * x * P[k] - n * P[k - 1]) / (n + 1);
-    }
-    for (std::size_t j = 0; j < size; ++j) {
-      for (std::size_t k = 0; k < size; ++k) E[j][i] += method.legendre[k][j] * P[k];
-    }
+NodeMatrix legendre_at_nodes(const Collocation& method, double start, double ratio) {
+  NodeMatrix P{};
+  std::array<double, kMostNodes> x{};  // in [-1, 1] where P_k has its usual form
+  for (std::size_t i = 0; i < kMostNodes; ++i) x[i] = 2 * (start + ratio * method.c[i]) - 1;
+  P[0].fill(1);
+  if (method.nodes > 1) P[1] = x;
+  for (std::size_t k = 1; k + 1 < static_cast<std::size_t>(method.nodes); ++k) {
+    const double n = static_cast<double>(k), up = (2 * n + 1) / (n + 1), back = n / (n + 1);
+    for (std::size_t i = 0; i < kMostNodes; ++i) P[k + 1][i] = up * x[i] * P[k][i] - back * P[k - 1][i];
   }
-  return E;
+  return P;
 }
-
-}  // namespace
-
-NodeMatrix extrapolation(const Collocation& method, double ratio) { return values_at(method, 1, ratio); }
-NodeMatrix interpolation(const Collocation& method, double ratio) { return values_at(method, 0, ratio); }
 
 }  // namespace pantin

@@ -20,7 +20,7 @@ struct Collocation {
   std::array<double, kMostNodes> c{};  ///< nodes, ascending in (0, 1]
   std::array<double, kMostNodes> b{};  ///< weights: the end of the step is y + h sum b_j f_j
   NodeMatrix a{};                      ///< by column: a[j][i] is a_ij
-  NodeMatrix legendre{};               ///< by row: coefficient k is sum_j legendre[k][j] f_j
+  NodeMatrix legendre{};               ///< by column: coefficient k is sum_j legendre[j][k] f_j
   /// By row: y(x h) = y_0 + h sum_k x^(k+1) sum_j powers[k][j] f_j inside the step, 0 <= x <= 1.
   NodeMatrix powers{};
 };
@@ -30,10 +30,8 @@ struct Collocation {
 /// Radau IIA: order 2 s - 1, the last node at the end of the step; L-stable; 1 to 8 nodes.
 [[nodiscard]] Collocation radau_collocation(int nodes);
 
-/// Values of the polynomial through the nodes of one step at the nodes of the next, `ratio` times as long; by
-/// column, as `a`.
-[[nodiscard]] NodeMatrix extrapolation(const Collocation& method, double ratio);
-/// The same at the nodes of a step from the same start, `ratio` times as long.
-[[nodiscard]] NodeMatrix interpolation(const Collocation& method, double ratio);
+/// Legendre polynomials of one step at the nodes of another, `ratio` times as long, that begins where `start`
+/// of the first has passed (1: the next one): by column, a[k][i] is P_k(start + ratio c_i).
+[[nodiscard]] NodeMatrix legendre_at_nodes(const Collocation& method, double start, double ratio);
 
 }  // namespace pantin

@@ -18,21 +18,22 @@
 #include <pantin/physics/integrators/series_tail.hpp>
 #include <pantin/physics/integrators/stage_arrays.hpp>
 #include <pantin/physics/integrators/step_arrays.hpp>
+#include <pantin/physics/integrators/sweep_forecast.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
 namespace pantin {
 namespace {
 
-constexpr double kSafety = 0.75, kShrinkMost = 0.2, kGrowMost = 1.5;
+constexpr double kSafety = 0.75, kShrinkMost = 0.2;
 /// Steps are chosen for this part of the tolerance, since errors of long runs add up, and accepted up to this
 /// multiple of that.
 constexpr double kAim = 0.1, kOvershoot = 2;
 /// The iteration stops where what it would still change is this part of the tolerance.
-constexpr double kIterationShare = 0.1;
-/// With more sweeps than this a step does not grow; one that needs more than the second number is halved.
-constexpr int kCheapSweeps = 8, kMostSweeps = 16;
-/// Where the step is given, as many as it takes.
-constexpr int kMostSweepsFixed = 60;
+constexpr double kIterationShare = 0.05;
+/// A step that needs more sweeps than this is shortened; than the second number, where it is given.
+constexpr int kMostSweeps = 16, kMostSweepsFixed = 60;
+/// A second sweep that changes this many times what the first did has started from a wrong series.
+constexpr double kDiverges = 2;
 /// The first step, as a part of the time in which slopes change by themselves, for each stage.
 constexpr double kFirstReach = 0.12;
 /// Slopes are not known better than this, relative to themselves.
@@ -64,12 +65,14 @@ class Gauss final : public ControlledIntegrator {
     refused_ = {};
     const auto s = static_cast<std::size_t>(method_.nodes);
     const std::size_t nq = q.size(), nv = v.size();
-    work_.reserve((3 * s + 1) * (nq + nv));
+    work_.reserve((4 * s + 1) * (nq + nv));
     Q_ = work_.take(nq * s), V_ = work_.take(nv * s);
     now_ = {work_.take(nq * s), work_.take(nv * s)};
     fresh_ = {work_.take(nq * s), work_.take(nv * s)};
+    series_ = {work_.take(nq * s), work_.take(nv * s)};
     q_weight_ = work_.take(nq), v_weight_ = work_.take(nv);
     dynamics.weights(q_weight_, v_weight_);
+    plain_ = dynamics.rates_are_velocities();
 
     StepMemory& memory = control_.memory;
     continues_ = memory.reached.size() == nq + nv && memory.slopes.size() == (nq + nv) * s &&
@@ -83,6 +86,7 @@ class Gauss final : public ControlledIntegrator {
     const std::span<double> slopes{memory.slopes}, kept{memory.kept_back};
     before_ = {slopes.first(nq * s), slopes.last(nv * s)};
     kept_ = {kept.first(nq), kept.last(nv)};
+    if (continues_) sizes_before_ = sizes_of(before_);
   }
 
   void finish(std::span<const double> q, std::span<const double> v) override {
@@ -122,19 +126,20 @@ class Gauss final : public ControlledIntegrator {
     for (std::size_t i = 0; i < at_.size(); ++i) at_[i] = {part.t + h * method_.c[i], Side::Before};
     start(part, q, v);
     refused_.settled = false;
-    const bool controlled = is_controlled();
-    const int most = controlled ? kMostSweeps : kMostSweepsFixed;
-    enough_ = std::max(controlled ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
+    const int most = is_controlled() ? kMostSweeps : kMostSweepsFixed;
+    enough_ = std::max(is_controlled() ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
     double last_change = 0;
     for (int sweep = 1;; ++sweep) {
       const double change = this->sweep(h, q, v), rho = sweep > 1 ? quotient(change, last_change) : 1;
+      settling_ = {settling_.ratio, sweep, sweep == 1 ? change : settling_.first, change};
       if (change <= enough_ || (sweep > 1 && rho < 1 && change * rho < enough_ * (1 - rho))) {
-        return judge(h, sweep, q, v);
+        return judge(h, q, v);
       }
       // What changes at the level of rounding will not settle further.
-      if (sweep > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) return judge(h, sweep, q, v);
+      if (sweep > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) return judge(h, q, v);
       const bool hopeless =
-          sweep > 2 && (rho > 0.9 || change * std::pow(rho, most - sweep) > enough_ * (1 - rho));
+          (sweep == 2 && rho > kDiverges) ||
+          (sweep > 2 && (rho > 0.9 || change * power(rho, most - sweep) > enough_ * (1 - rho)));
       if (!std::isfinite(change) || hopeless || sweep == most) {
         return {false, std::isfinite(change) ? std::clamp(std::sqrt(0.2 / rho), 0.25, 0.7) : kShrinkMost};
       }
@@ -144,67 +149,80 @@ class Gauss final : public ControlledIntegrator {
 
   /// Slopes to start from: of the refused part, which reaches further, of the step before, or of now.
   void start(const Part& part, std::span<const double> q, std::span<const double> v) {
-    if (refused_.settled) {
-      carry(fresh_, now_, interpolation(method_, part.h / refused_.h));
-      return std::swap(now_, fresh_);
+    settling_ = {};
+    if (refused_.settled) return combine(now_, series_, legendre_at_nodes(method_, 0, part.h / refused_.h));
+    if (continues_) {
+      settling_.ratio = part.h / control_.memory.last;
+      return combine(now_, before_, continuation(method_, sizes_before_, settling_.ratio, part.h));
     }
-    if (continues_) return carry(now_, before_, extrapolation(method_, part.h / control_.memory.last));
     const std::span<double> k0 = fresh_.q.first(q.size()), f0 = fresh_.v.first(v.size());
     dynamics_->derivative({part.t, Side::After}, q, v, k0, f0);
     spread(method_.nodes, now_.q, k0);
     spread(method_.nodes, now_.v, f0);
   }
 
-  void carry(const Slopes& to, const Slopes& from, const NodeMatrix& E) const {
-    combine_stages(method_.nodes, to.q, from.q, E);
-    combine_stages(method_.nodes, to.v, from.v, E);
+  [[nodiscard]] SeriesSizes sizes_of(const Slopes& series) const {
+    return {method_.nodes, greatest_by_stage(method_.nodes, series.q, q_weight_),
+            greatest_by_stage(method_.nodes, series.v, v_weight_)};
+  }
+
+  void write_series() {
+    combine(series_, now_, method_.legendre);
+    sizes_ = sizes_of(series_);
+  }
+
+  void combine(const Slopes& to, const Slopes& from, const NodeMatrix& a) const {
+    combine_stages(method_.nodes, to.q, from.q, a);
+    combine_stages(method_.nodes, to.v, from.v, a);
   }
 
   /// One iteration, from now_ to now_; says by how much it changed the slopes, as motion per unit time.
   double sweep(double h, std::span<const double> q, std::span<const double> v) {
     const int s = method_.nodes;
     add_stages(s, V_, v, h, now_.v, method_.a);
-    add_stages(s, Q_, q, h, now_.q, method_.a);
-    dynamics_->rates({at(), Q_, V_, now_.q, {}});
-    add_stages(s, Q_, q, h, now_.q, method_.a);
+    if (!plain_) {
+      add_stages(s, Q_, q, h, now_.q, method_.a);
+      dynamics_->rates({at(), Q_, V_, now_.q, {}});
+    }
+    add_stages(s, Q_, q, h, plain_ ? V_ : now_.q, method_.a);
     dynamics_->derivatives({at(), Q_, V_, fresh_.q, fresh_.v});
-    const double change = std::max(greatest_difference(s, fresh_.q, now_.q, q_weight_),
-                                   h * greatest_difference(s, fresh_.v, now_.v, v_weight_));
+    double change = h * greatest_difference(s, fresh_.v, now_.v, v_weight_);
+    if (!plain_) change = std::max(greatest_difference(s, fresh_.q, now_.q, q_weight_), change);
     std::swap(now_, fresh_);
     return change;
   }
 
   /// Of a step whose iteration has settled: whether the polynomial is good enough, and the next step.
-  Outcome judge(double h, int sweeps, std::span<const double> q, std::span<const double> v) {
+  Outcome judge(double h, std::span<const double> q, std::span<const double> v) {
+    write_series();
     if (!is_controlled()) return {true, 1};
-    const bool grows = sweeps <= kCheapSweeps && refused_.h == 0;
-    const double error = estimate(h, q, v);
+    const double cheapest = cheapest_ratio(sizes_, settling_, h, enough_);
+    const Rule rule{.order = 2.0 * settings_.stages,
+                    .safety = kSafety,
+                    .shrink_most = kShrinkMost,
+                    .grow_most = refused_.h == 0 ? cheapest : std::min(cheapest, 1.0),
+                    .overshoot = kOvershoot};
+    const double plenty = kAim * tolerance() * power(rule.safety / rule.grow_most, 2 * settings_.stages);
+    const double error = estimate(h, q, v, plenty);
     refused_.settled = std::isfinite(error);
-    return decide(error / kAim, {.order = 2.0 * settings_.stages,
-                                 .safety = kSafety,
-                                 .shrink_most = kShrinkMost,
-                                 .grow_most = grows ? kGrowMost : 1,
-                                 .overshoot = kOvershoot});
+    return decide(error / kAim, rule);
   }
 
-  /// Error per unit time.
-  double estimate(double h, std::span<const double> q, std::span<const double> v) {
+  /// Error per unit time, or a bound of it that is no more than `plenty`, below which it decides nothing.
+  double estimate(double h, std::span<const double> q, std::span<const double> v, double plenty) {
     const int s = method_.nodes;
-    const std::span<double> q_top = fresh_.q.first(q.size()), v_top = fresh_.v.first(v.size());
-    const auto take = [&](int k) {
-      coefficients(s, q_top, now_.q, method_.legendre[static_cast<std::size_t>(k)]);
-      coefficients(s, v_top, now_.v, method_.legendre[static_cast<std::size_t>(k)]);
-    };
     std::array<double, 4> sizes{};  // of the last coefficients, the last one first
     for (int back = std::min(s, 4) - 1; back >= 0; --back) {
-      take(s - 1 - back);
-      sizes[static_cast<std::size_t>(back)] =
-          std::max(greatest(q_top, q_weight_), h * greatest(v_top, v_weight_));
+      sizes[static_cast<std::size_t>(back)] = sizes_.at(static_cast<std::size_t>(s - 1 - back), h);
     }
     const SeriesTail tail = tail_of(sizes, s, 10 * kRounding * slope_size(h));
     if (tail.share == 0) return 0;
-    if (tail.back > 0) take(s - 1 - tail.back);
-    return tail.share * dynamics_->motion_error(q, v, q_top, v_top, h);
+    const std::span<double> q_top = fresh_.q.first(q.size()), v_top = fresh_.v.first(v.size());
+    take_stage(s, q_top, series_.q, s - 1 - tail.back);
+    take_stage(s, v_top, series_.v, s - 1 - tail.back);
+    const double bound =
+        tail.share * std::max(weighted_sum(q_top, q_weight_), h * weighted_sum(v_top, v_weight_));
+    return bound <= plenty ? bound : tail.share * dynamics_->motion_error(q, v, q_top, v_top, h);
   }
 
   /// How large the slopes are, as motion per unit time.
@@ -220,8 +238,9 @@ class Gauss final : public ControlledIntegrator {
     if (record_ != nullptr) record(part, q, v);
     add_compensated(s, q, kept_.q, part.h, now_.q, method_.b);
     add_compensated(s, v, kept_.v, part.h, now_.v, method_.b);
-    std::copy(now_.q.begin(), now_.q.end(), before_.q.begin());
-    std::copy(now_.v.begin(), now_.v.end(), before_.v.begin());
+    std::copy(series_.q.begin(), series_.q.end(), before_.q.begin());
+    std::copy(series_.v.begin(), series_.v.end(), before_.v.begin());
+    sizes_before_ = sizes_;
     control_.memory.last = part.h;
     continues_ = true;
     refused_ = {};
@@ -253,10 +272,15 @@ class Gauss final : public ControlledIntegrator {
   double enough_{0};  ///< change of slopes at which the iteration stops
   Dynamics* dynamics_{nullptr};
   bool continues_{false};
+  bool plain_{false};  ///< q' is v
   WorkSpace work_{};
   std::array<Instant, kMostNodes> at_{};
   std::span<double> Q_{}, V_{}, q_weight_{}, v_weight_{};
-  Slopes now_{}, fresh_{}, before_{};
+  SeriesSizes sizes_{}, sizes_before_{};
+  Settling settling_{};
+  Slopes now_{}, fresh_{};
+  Slopes series_{},
+      before_{};  ///< as Legendre coefficients in the place of stages: of this part, the last one
   Slopes kept_{};
 };
 

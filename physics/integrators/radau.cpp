@@ -202,7 +202,9 @@ class Radau final : public ControlledIntegrator {
     if (!is_controlled()) return {true, 1};
     std::array<double, kStages> sizes{};
     for (std::size_t k = 0; k < kStages; ++k) {
-      coefficients(kStages, trial_, k_, method_.legendre[k]);
+      std::array<double, kMostNodes> row{};
+      for (std::size_t j = 0; j < kStages; ++j) row[j] = method_.legendre[j][k];
+      coefficients(kStages, trial_, k_, row);
       sizes[k] = std::max(greatest(trial_.first(nq_), weight_.first(nq_)),
                           h * greatest(trial_.subspan(nq_), weight_.subspan(nq_)));
     }

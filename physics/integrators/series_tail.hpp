@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include <pantin/physics/integrators/stage_arrays.hpp>
+
 namespace pantin {
 
 struct SeriesTail {
@@ -19,7 +21,7 @@ struct SeriesTail {
   const double last = std::max(sizes[0], sizes[1]);
   if (last <= noise) return {};
   const double decay = std::sqrt(last / std::max({sizes[2], sizes[3], noise}));
-  const double missing = std::pow(std::min(decay, 1.0), stages + 1);
+  const double missing = power(std::min(decay, 1.0), stages + 1);
   if (stages == 1 || sizes[0] >= decay * sizes[1]) return {missing, 0};
   return {missing * decay, 1};
 }

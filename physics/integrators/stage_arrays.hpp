@@ -34,6 +34,15 @@ inline void spread(int stages, std::span<double> out, std::span<const double> nu
   }
 }
 
+/// Halves on halves, so that compilers add whole registers.
+template <std::size_t n>
+inline double sum_of(std::array<double, n> x) {
+  for (std::size_t half = n / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) x[i] += x[i + half];
+  }
+  return x[0];
+}
+
 /// out = sum_j row[j] slope_j
 inline void coefficients(int stages, std::span<double> out, std::span<const double> slopes,
                          const std::array<double, kMostNodes>& row) {
@@ -54,9 +63,9 @@ inline void add_compensated(int stages, std::span<double> x, std::span<double> k
   with_stages(stages, [&](auto s) {
     const double* from = slopes.data();
     for (std::size_t n = 0; n < x.size(); ++n, from += s) {
-      double sum = 0;
-      for (std::size_t j = 0; j < s; ++j) sum += b[j] * from[j];
-      const double y = h * sum + kept_back[n], t = x[n] + y;
+      std::array<double, kMostNodes> parts{};
+      for (std::size_t j = 0; j < s; ++j) parts[j] = b[j] * from[j];
+      const double y = h * sum_of(parts) + kept_back[n], t = x[n] + y;
       kept_back[n] = y - (t - x[n]);
       x[n] = t;
     }
@@ -82,31 +91,68 @@ inline double greatest_difference(std::span<const double> x, std::span<const dou
   return most;
 }
 
-/// The same over all stages; the weight is that of the number.
-inline double greatest(int stages, std::span<const double> x, std::span<const double> weight) {
+/// The sum of weight |x|.
+inline double weighted_sum(std::span<const double> x, std::span<const double> weight) {
+  double sum = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) sum += weight[n] * std::abs(x[n]);
+  return sum;
+}
+
+/// The same, of what `size` says of each number at each stage, added up over the stages; the weight is that
+/// of the number.
+template <class Size>
+inline double greatest_over_stages(int stages, std::span<const double> weight, Size size) {
   return with_stages(stages, [&](auto s) {
     double most = 0;
-    const double* from = x.data();
-    for (std::size_t n = 0; n < weight.size(); ++n, from += s) {
-      double size = 0;
-      for (std::size_t i = 0; i < s; ++i) size += std::abs(from[i]);
-      if (!(weight[n] * size <= most)) most = weight[n] * size;
+    for (std::size_t n = 0; n < weight.size(); ++n) {
+      std::array<double, kMostNodes> sizes{};
+      for (std::size_t i = 0; i < s; ++i) sizes[i] = size(n * s + i);
+      const double all = weight[n] * sum_of(sizes);
+      if (!(all <= most)) most = all;
     }
     return most;
   });
 }
+inline double greatest(int stages, std::span<const double> x, std::span<const double> weight) {
+  const double* from = x.data();
+  return greatest_over_stages(stages, weight, [from](std::size_t i) { return std::abs(from[i]); });
+}
 inline double greatest_difference(int stages, std::span<const double> x, std::span<const double> y,
                                   std::span<const double> weight) {
+  const double *a = x.data(), *b = y.data();
+  return greatest_over_stages(stages, weight, [a, b](std::size_t i) { return std::abs(a[i] - b[i]); });
+}
+
+/// The greatest of weight |x| stage by stage.
+inline std::array<double, kMostNodes> greatest_by_stage(int stages, std::span<const double> x,
+                                                        std::span<const double> weight) {
   return with_stages(stages, [&](auto s) {
-    double most = 0;
-    const double *a = x.data(), *b = y.data();
-    for (std::size_t n = 0; n < weight.size(); ++n, a += s, b += s) {
-      double size = 0;
-      for (std::size_t i = 0; i < s; ++i) size += std::abs(a[i] - b[i]);
-      if (!(weight[n] * size <= most)) most = weight[n] * size;
+    std::array<double, kMostNodes> most{};
+    const double* from = x.data();
+    for (std::size_t n = 0; n < weight.size(); ++n, from += s) {
+      for (std::size_t i = 0; i < s; ++i) {
+        const double size = weight[n] * std::abs(from[i]);
+        most[i] = size <= most[i] ? most[i] : size;
+      }
     }
     return most;
   });
+}
+
+/// out = the numbers of one stage.
+inline void take_stage(int stages, std::span<double> out, std::span<const double> x, int stage) {
+  const auto s = static_cast<std::size_t>(stages);
+  const double* from = x.data() + stage;
+  for (std::size_t n = 0; n < out.size(); ++n, from += s) out[n] = *from;
+}
+
+/// x^n, n >= 0.
+inline double power(double x, int n) {
+  double product = 1;
+  for (; n > 0; n /= 2, x *= x) {
+    if (n % 2 != 0) product *= x;
+  }
+  return product;
 }
 
 /// a / b, where 0 / 0 is 0.
