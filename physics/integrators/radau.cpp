@@ -31,12 +31,14 @@ constexpr double kIterationShare = 0.05;
 constexpr int kMostSweeps = 60, kMostSweepsBesideLines = 100, kStepsPerDerivative = 20;
 constexpr double kSlow = 0.6;  ///< contraction from which the derivative is taken anew
 constexpr double kRounding = 1e-15;
+constexpr double kGrowAgain = 1.5;   ///< of a step that is given and was cut, from part to part
 constexpr double kFirstPart = 0.01;  ///< of the step asked for, where nothing is known
 // Where steps are controlled, a shorter one with J at the begin costs less than one with rows for forces
 // along lines, unless steps must be cut time and again: a step cut counts so many, one that did well takes
 // one off.
 constexpr int kPriceOfCut = 2, kTooManyCuts = 5;
 constexpr int kStepsPerTrial = 20;  ///< with such rows, until J is tried again
+constexpr int kIdleSweeps = 5;      ///< without a lesser change: rounding is all that is left
 constexpr double kAstray = 30;      ///< times the least change: sweeps do not come back from there
 
 class Radau final : public ControlledIntegrator {
@@ -133,8 +135,12 @@ class Radau final : public ControlledIntegrator {
   bool sweep(double h) {
     factors_.factor(h);
     spread(kStages, k_, slope_);
-    const double place = place_size();
+    // Places are known to rounding, which the stiffest forces turn into slopes: the least at any stage, and
+    // about the most, at that with the least implicit part, with all that they pass through.
+    const double noise = kRounding * place_size() / h;
+    const double loud = is_controlled() ? 0 : 30 * noise / (kDiagonal[1] * kDiagonal[1]);
     double last = 0, least = std::numeric_limits<double>::infinity();
+    int best = 0;  // sweep with the least change
     const int most = factors_.are_beside_lines() ? kMostSweepsBesideLines : kMostSweeps;
     for (int count = 1; count <= most; ++count) {
       evaluate_stages(h);
@@ -144,17 +150,20 @@ class Radau final : public ControlledIntegrator {
       const double enough =
           std::max(is_controlled() ? kIterationShare * tolerance() : 0, kRounding * slope_size(h));
       // What changes at the level of rounding will not settle further.
-      const bool stalls = (count > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) ||
-                          (count > 6 && rho > 0.9 &&
-                           change <= 1e4 * enough + 1e-11 * slope_size(h) + 10 * kRounding * place / h);
+      const bool stalls =
+          (count > 2 && rho > 0.5 && change <= 100 * kRounding * slope_size(h)) ||
+          (count > 6 && rho > 0.9 && change <= 1e4 * enough + 1e-11 * slope_size(h) + 10 * noise) ||
+          (count > best + kIdleSweeps && change <= loud);
       if (change <= enough || stalls || (count > 1 && rho < 1 && change * rho < enough * (1 - rho))) {
         if (rho > kSlow && age_ > 0) age_ = kStepsPerDerivative;
         return true;
       }
       // Beside lines the first sweeps wander until these have turned to where they belong.
-      if (count > 4 && rho > 1.5 && (!factors_.are_beside_lines() || change > kAstray * least)) return false;
+      if (count > 4 && rho > 1.5 && change > loud &&
+          (!factors_.are_beside_lines() || change > kAstray * least))
+        return false;
       last = change;
-      least = std::min(least, change);
+      if (change < least) least = change, best = count;
     }
     return false;
   }
@@ -199,7 +208,7 @@ class Radau final : public ControlledIntegrator {
 
   /// As in gauss.cpp: the first Legendre coefficient that the step leaves out, by how the last ones fall off.
   Outcome judge(double h) {
-    if (!is_controlled()) return {true, 1};
+    if (!is_controlled()) return {true, kGrowAgain};
     std::array<double, kStages> sizes{};
     for (std::size_t k = 0; k < kStages; ++k) {
       std::array<double, kMostNodes> row{};
