@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include <pantin/physics/forces/line_force.hpp>
 #include <pantin/physics/forces/wrench_derivatives.hpp>
 #include <pantin/physics/setting_checks.hpp>
 
@@ -61,16 +62,28 @@ Matrix3 derivative_of_gradient(const Vector3& axis, const Quaternion& q) {
   return by_turn;
 }
 
-class TorsionSpringLaw final : public ForceLaw {
+/// About an axis it acts along one number, the twist.
+class TorsionSpringLaw final : public ForceLaw, public LineForce {
  public:
   explicit TorsionSpringLaw(const TorsionSpring& settings) : settings_{settings} {}
+
+  const LineForce* line() const override { return settings_.axis_A ? this : nullptr; }
+  double stiffness() const override { return settings_.stiffness; }
+  double damping() const override { return settings_.damping; }
+  double effort(const BodiesAt& at) const override {
+    const Turn turn = turn_now(at);
+    const Vector3 omega_A =
+        rotation(at, settings_.a).transpose() * (rate(at, settings_.b) - rate(at, settings_.a));
+    return settings_.stiffness * turn.angle + settings_.damping * turn.gradient.dot(omega_A);
+  }
+  void add_effort(const BodiesAt& at, double effort, std::span<Wrench> wrenches) const override {
+    push(at, rotation(at, settings_.a) * (-effort * turn_now(at).gradient), wrenches);
+  }
 
   void add_wrenches(const BodiesAt& at, std::span<Wrench> wrenches) const override {
     const Matrix3 R_WA = rotation(at, settings_.a);
     const Vector3 omega_A = R_WA.transpose() * (rate(at, settings_.b) - rate(at, settings_.a));
-    const Vector3 torque_W = R_WA * torque_of(turn_now(at), omega_A);
-    if (settings_.b) wrenches[at.index(settings_.b)].torque += torque_W;
-    if (settings_.a) wrenches[at.index(settings_.a)].torque -= torque_W;
+    push(at, R_WA * torque_of(turn_now(at), omega_A), wrenches);
   }
 
   /// A turn of both ends turns the torque; the rest is by the turn of b against a, and by its rate.
@@ -107,6 +120,11 @@ class TorsionSpringLaw final : public ForceLaw {
   }
 
  private:
+  /// A torque on B, and against it on A.
+  void push(const BodiesAt& at, const Vector3& torque_W, std::span<Wrench> wrenches) const {
+    if (settings_.b) wrenches[at.index(settings_.b)].torque += torque_W;
+    if (settings_.a) wrenches[at.index(settings_.a)].torque -= torque_W;
+  }
   static Matrix3 rotation(const BodiesAt& at, BodyId body) {
     return body ? at.kinematics[at.index(body)].R_WB : Matrix3{Matrix3::Identity()};
   }

@@ -13,7 +13,9 @@
 #include <pantin/physics/constraints/cylindrical.hpp>
 #include <pantin/physics/constraints/planar.hpp>
 #include <pantin/physics/constraints/universal.hpp>
+#include <pantin/physics/forces/constant_load.hpp>
 #include <pantin/physics/forces/damped_spring.hpp>
+#include <pantin/physics/forces/torsion_spring.hpp>
 #include <pantin/physics/integrators/radau.hpp>
 
 namespace pantin {
@@ -153,6 +155,49 @@ TEST(StiffLine, HoldsATolerance) {
       EXPECT_LT(evaluations, 3 * softer) << stiffness;
     }
     softer = evaluations;
+  }
+}
+
+/// Two bodies, free or on balls, that a stiff torsion spring keeps from twisting about an axis of the first
+/// one, and a torque that swings the second one away from it.
+struct Twisted {
+  PhysicsManager physics{};
+  BodyId b{};
+
+  Twisted(double stiffness, bool on_balls) {
+    physics.forces().add(Gravity{.g_W = {1, -2, -9.81}});
+    const BodyId a = physics.add(RigidBodySettings{.X_WB = {{0.2, 0.1, 0}}, .mass = lopsided_mass(1.5)});
+    b = physics.add(RigidBodySettings{.X_WB = {{0.9, -0.2, 0.4}}, .mass = lopsided_mass()});
+    if (on_balls) {
+      physics.add(joint_here<BallSettings>(physics, BodyId{}, a, {{0, 0, 0.1}, facing({1, 2, 1})}));
+      physics.add(joint_here<BallSettings>(physics, a, b, {{0.6, -0.1, 0.2}, facing({1, 2, 1})}));
+    }
+    physics.forces().add(ConstantLoad{.body = b, .torque = {0.3, -0.2, 0.4}});
+    physics.forces().add(TorsionSpring{.a = a,
+                                       .b = b,
+                                       .axis_A = Vector3{1, 2, 2} / 3,
+                                       .stiffness = stiffness,
+                                       .damping = 0.3 * std::sqrt(stiffness)});
+    physics.set_integrator(make_radau({.tolerance = kInfinite}));
+  }
+};
+
+TEST(StiffLine, TurnsWithTheAxisOfATorsionSpring) {
+  // The gradient of the twist turns as the second body swings by a radian. Steps of 0.05 s need not be cut
+  // for it, whatever the stiffness, and come to the attitude that steps of a tenth come to.
+  for (const bool on_balls : {false, true}) {
+    for (const double stiffness : {1e4, 1e7, 1e10}) {
+      Twisted coarse{stiffness, on_balls}, fine{stiffness, on_balls};
+      for (int i = 0; i < 8; ++i) {
+        const StepReport report = coarse.physics.step(0.05);
+        ASSERT_TRUE(report.ok()) << report.message;
+        EXPECT_EQ(report.inner_steps, 1) << stiffness;
+      }
+      ASSERT_TRUE(test::run(fine.physics, 0.005, 80));
+      const Quaternion q = fine.physics.body(fine.b).q_WB();
+      EXPECT_GT(q.angularDistance(Quaternion::Identity()), 0.5) << "it swings, or this shows little";
+      EXPECT_LT(coarse.physics.body(coarse.b).q_WB().angularDistance(q), 1e-6) << stiffness;
+    }
   }
 }
 
