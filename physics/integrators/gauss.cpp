@@ -1,10 +1,10 @@
 // Stage values  V_i = v + h sum a_ij F_j,  Q_i = q + h sum a_ij K_j,  K_i = rate(Q_i, V_i),  F_i = v'(Q_i,
 // V_i), iterated until they repeat; then  q1 = q + h sum b_j K_j,  v1 = v + h sum b_j F_j, in compensated
 // sums. K is taken at the newest V, so that motion along q' = v converges as for an equation of second order.
-// The iteration starts from the polynomial of the step before, continued; the error is estimated as in
-// series_tail.hpp. M. Antonana, E. Alberdi, J. Makazaga, A. Murua, An implicit symplectic solver for
-// high-precision long-term integrations of the Solar System, 2022, for the arrangement of stages; E. Hairer,
-// C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., VIII.6, for starting values and stopping.
+// The iteration starts from the series of the step before, and bounds the step (sweep_forecast.hpp) as the
+// error does (series_tail.hpp). M. Antonana, E. Alberdi, J. Makazaga, A. Murua, An implicit symplectic solver
+// for high-precision long-term integrations of the Solar System, 2022, for the arrangement of stages; E.
+// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., VIII.6, for starting and stopping.
 #include <pantin/physics/integrators/gauss.hpp>
 
 #include <algorithm>

@@ -135,8 +135,8 @@ class Radau final : public ControlledIntegrator {
   bool sweep(double h) {
     factors_.factor(h);
     spread(kStages, k_, slope_);
-    // Places are known to rounding, which the stiffest forces turn into slopes: the least at any stage, and
-    // about the most, at that with the least implicit part, with all that they pass through.
+    // Places are known to rounding, of which stiff forces make slopes: `noise` at least, and up to `loud` at
+    // the stage with the least implicit part. A tolerance asks for less than that, or is not met.
     const double noise = kRounding * place_size() / h;
     const double loud = is_controlled() ? 0 : 30 * noise / (kDiagonal[1] * kDiagonal[1]);
     double last = 0, least = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 // whose terms grow beyond the step; the least of them tells how well it can be continued, as in any
 // asymptotic series.
 #include <array>
+#include <cstddef>
 
 #include <pantin/physics/integrators/collocation.hpp>
 
