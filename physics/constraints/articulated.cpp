@@ -94,25 +94,6 @@ void Articulated::place(const TreeLayout& layout, const Tree& tree, std::span<co
   }
 }
 
-void Articulated::carry(const TreeLayout& layout, const Tree& tree, std::span<const double> rates) {
-  for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
-    const TreeLink& link = layout.links[i];
-    LinkWork& work = work_[i];
-    work.w = {}, work.v = {};
-    if (link.parent >= 0) {
-      const LinkWork& parent = work_[static_cast<std::size_t>(link.parent)];
-      work.w = parent.w, work.v = parent.v + cross(parent.w, work.r);
-    }
-    if (link.driver != nullptr) continue;
-    with_model(link, [&](auto model) {
-      for (std::uint32_t j = link.v; j < link.v + std::uint32_t{decltype(model)::kRates}; ++j) {
-        work.w += rates[j] * S_a_[j];
-        work.v += rates[j] * S_l_[j];
-      }
-    });
-  }
-}
-
 void Articulated::write_members(const TreeLayout& layout, const Tree& tree,
                                 std::span<const MassProperties> mass, std::span<BodyKinematics> out) const {
   for (std::uint32_t i = tree.links_begin; i < tree.links_end; ++i) {
