@@ -71,10 +71,8 @@ class TorsionSpringLaw final : public ForceLaw, public LineForce {
   double stiffness() const override { return settings_.stiffness; }
   double damping() const override { return settings_.damping; }
   double effort(const BodiesAt& at) const override {
-    const Turn turn = turn_now(at);
-    const Vector3 omega_A =
-        rotation(at, settings_.a).transpose() * (rate(at, settings_.b) - rate(at, settings_.a));
-    return settings_.stiffness * turn.angle + settings_.damping * turn.gradient.dot(omega_A);
+    const Vector3 omega_W = rate(at, settings_.b) - rate(at, settings_.a);
+    return effort_of(turn_now(at), rotation(at, settings_.a).transpose() * omega_W);
   }
   void add_effort(const BodiesAt& at, double effort, std::span<Wrench> wrenches) const override {
     push(at, rotation(at, settings_.a) * (-effort * turn_now(at).gradient), wrenches);
@@ -147,7 +145,10 @@ class TorsionSpringLaw final : public ForceLaw, public LineForce {
   [[nodiscard]] Vector3 torque_of(const Turn& turn, const Vector3& omega_A) const {
     const Vector3& g = turn.gradient;
     if (!settings_.axis_A) return -settings_.stiffness * turn.angle * g - settings_.damping * omega_A;
-    return -(settings_.stiffness * turn.angle + settings_.damping * g.dot(omega_A)) * g;
+    return -effort_of(turn, omega_A) * g;
+  }
+  [[nodiscard]] double effort_of(const Turn& turn, const Vector3& omega_A) const {
+    return settings_.stiffness * turn.angle + settings_.damping * turn.gradient.dot(omega_A);
   }
   /// Of that torque, by a small turn after the one of now and by omega_A.
   struct Change {

@@ -10,6 +10,9 @@ namespace {
 
 /// The first change is this many times the least term at the end of the step, until a step has shown it.
 constexpr double kFirstChange = 4;
+/// A step that settles in so few sweeps is not shortened for them: what they would save is less than the
+/// rounding of many short steps costs near singular positions.
+constexpr int kCheapSweeps = 8;
 /// What a step costs besides its sweeps, in sweeps.
 constexpr double kBesides = 1;
 /// Contraction where a single sweep says nothing of it, and where it is hardly one.
@@ -102,7 +105,7 @@ double cheapest_ratio(const SeriesSizes& sizes, const Settling& settling, double
     const double cost = (sweeps + kBesides) / kRatios[i];
     if (cost < best_cost) best_cost = cost, best = kRatios[i];
   }
-  return best;
+  return settling.sweeps <= kCheapSweeps ? std::max(best, 1.0) : best;
 }
 
 }  // namespace pantin

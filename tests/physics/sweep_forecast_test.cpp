@@ -68,6 +68,8 @@ TEST(SweepForecast, LengthensStepsThatSettleAtOnce) {
 TEST(SweepForecast, ShortensStepsThatHardlySettle) {
   const Series wild{gauss_collocation(8), [](double t) { return 1 / (1 + (t - 0.5) * (t - 0.5) / 0.09); }};
   EXPECT_LT(cheapest_ratio(wild.sizes, {.sweeps = 12, .first = 1, .last = 0.01}, 1, 1e-2), 1);
+  // Few sweeps are no reason to shorten a step.
+  EXPECT_EQ(cheapest_ratio(wild.sizes, {.sweeps = 8, .first = 1, .last = 0.01}, 1, 1e-2), 1);
   // The better sweeps contract, the longer may a step be.
   double before = 0;
   for (const double last : {1e-1, 1e-3, 1e-6, 1e-9}) {
